@@ -2,6 +2,7 @@
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/spheres/BallAround.h"
 
 #include <algorithm>
 #include <numeric>
@@ -66,14 +67,14 @@ void mergeDown(const MedialSurface& surface, std::vector<Elements>& parts) {
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < parts.size(); ++i)
             for (std::size_t j = i + 1; j < parts.size(); ++j) {
-                const double radius = joinBalls(balls[i], balls[j]).radius;
+                const double radius = ballAround(balls[i], balls[j]).radius;
                 if (radius < least) {
                     least = radius;
                     first = i;
                     second = j;
                 }
             }
-        balls[first] = joinBalls(balls[first], balls[second]);
+        balls[first] = ballAround(balls[first], balls[second]);
         parts[first].insert(parts[first].end(), parts[second].begin(), parts[second].end());
         balls.erase(balls.begin() + second);
         parts.erase(parts.begin() + second);

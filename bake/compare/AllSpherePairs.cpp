@@ -9,11 +9,9 @@ namespace {
 class AllSpherePairs final : public CollisionMethodLoop<AllSpherePairs> {
 public:
     explicit AllSpherePairs(const ComparedPair& problem) : problem_(problem) {
-        description() = {"all-pairs",
-                         "all pairs",
+        description() = {"all-pairs", "all pairs",
                          "every sphere of A against every sphere of B, scalar doubles, first hit out",
-                         {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)},
-                         (problem.a.size() + problem.b.size()) * sizeof(Sphere)};
+                         statedBySpheres(problem), (problem.a.size() + problem.b.size()) * sizeof(Sphere)};
         description().slow = true;
     }
 

@@ -64,10 +64,9 @@ public:
         // Coordinates and differences are off by a few float steps of the whole size, the root of the
         // squares no more than that again.
         const double band = 16 * 6e-8 * 2 * size;
-        const StatedError spheres{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
         description() = {"all-pairs-simd", "all pairs",
                          "every sphere of A against every sphere of B, float vectors, first hit out",
-                         spheres.widened(band, band),
+                         statedBySpheres(problem).widened(band, band),
                          problem.a.size() * sizeof(Sphere) + count * 4 * sizeof(float)};
         description().slow = true;
     }

@@ -31,12 +31,17 @@ struct Work {
 };
 inline constexpr std::uint64_t productsPerSphereTest = 4;
 
-/// What a method promises against the meshes; a negative number: it promises nothing.
+/// The work of so many sphere tests.
+inline Work sphereTests(std::uint64_t count) {
+    return {count, count * productsPerSphereTest};
+}
+
+/// What a method promises against the meshes; nothing: it makes no promise.
 struct StatedError {
     std::optional<double> miss;  ///< a contact of the meshes deeper than this is reported, scene units
     std::optional<double> early; ///< contact is reported only where the meshes are this near, scene units
 
-    /// As much more of both as rounding or interpolation adds.
+    /// The same with what rounding or interpolation adds, scene units.
     StatedError widened(double byMiss, double byEarly) const {
         StatedError wider = *this;
         if (miss) *wider.miss += byMiss;
@@ -53,7 +58,8 @@ struct Description {
     StatedError stated;
     std::size_t bytes = 0; ///< what a query reads, without the code
     double buildSeconds = 0;
-    bool slow = false; ///< milliseconds a query on meshes of some ten thousand triangles: ask it less often
+    bool slow = false; ///< takes milliseconds a query on meshes of some ten thousand triangles: it is judged
+                       ///< at fewer poses
 };
 
 /// Another way to ask whether two bodies touch at a pose. Immutable once made; threads may share one unless

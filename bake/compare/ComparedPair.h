@@ -1,8 +1,7 @@
 #pragma once
+#include "bake/compare/CollisionMethod.h"
 #include "bake/motion/Motion.h"
 #include "bake/table/Table.h"
-
-#include <optional>
 
 namespace tss::compare {
 
@@ -15,17 +14,15 @@ struct ComparedPair {
     Table table;          ///< the reduced pairs, and which spheres of a and b they use
 };
 
-/// What a yes/no over the whole sphere sets can promise against the meshes. A contact is a common point: with
-/// spheres that lack at most `coverage` of each surface the gap there is at most the sum of both, so only
-/// spheres that contain the surface miss nothing; with protrusion, spheres touch where the meshes are as near
-/// as both protrusions together.
-inline std::optional<double> earlyOf(const FitRecord& a, const FitRecord& b) {
-    if (!a.protrusion || !b.protrusion) return std::nullopt;
-    return *a.protrusion + *b.protrusion;
-}
-inline std::optional<double> missOf(const FitRecord& a, const FitRecord& b) {
-    if (!a.coverage || !b.coverage) return std::nullopt;
-    return std::max(0.0, *a.coverage + *b.coverage);
+/// What a yes/no answer over the whole sphere sets promises against the meshes. miss: where the meshes touch,
+/// the gap of the spheres is at most the sum of both coverages, which is 0 for spheres that contain the
+/// surfaces. early: where spheres touch, the meshes are no farther apart than the sum of both protrusions.
+inline StatedError statedBySpheres(const ComparedPair& pair) {
+    const FitRecord &a = pair.fitA, &b = pair.fitB;
+    StatedError stated;
+    if (a.coverage && b.coverage) stated.miss = std::max(0.0, *a.coverage + *b.coverage);
+    if (a.protrusion && b.protrusion) stated.early = *a.protrusion + *b.protrusion;
+    return stated;
 }
 
 } // namespace tss::compare

@@ -12,7 +12,7 @@ namespace tss::compare {
 
 namespace {
 
-/// Largest distance from p of a point of B carried by the DOFs from `from` on, over their limits.
+/// The largest distance that a point of B has from p while it is moved by the DOFs from number `from` on.
 double reachFrom(const ComparedPair& problem, std::size_t from, const Vec3& p) {
     const Motion& motion = problem.motion;
     if (from == motion.dofCount()) {
@@ -63,7 +63,8 @@ public:
             const int n = range > 0 ? points : 2; // a DOF that is held still has two equal layers
             axes_[k] = {dof.lower, range > 0 ? (n - 1) / range : 0, n - 2, count};
             count *= static_cast<std::size_t>(n);
-            // Weights t and 1 - t a DOF: the values are at most 2 t (1 - t) h <= h / 2 away on average.
+            // With weights 1 - t and t the two grid values of a DOF are on average 2 t (1 - t) h <= h / 2
+            // away.
             band += 0.5 * range / (n - 1) * speedOf(problem, static_cast<std::size_t>(k));
         }
         values_.resize(count);

@@ -2,6 +2,7 @@
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/spheres/BallAround.h"
 
 #include <algorithm>
 #include <numeric>
@@ -24,7 +25,7 @@ struct Cluster {
 /// About how far a ball that contains both would stick out: s^2 / 2R for a patch of radius s over a medial
 /// ball of radius R, s where the medial ball is no help.
 double mergeCost(const Cluster& a, const Cluster& b) {
-    const double s = joinBalls(a.ball, b.ball).radius;
+    const double s = ballAround(a.ball, b.ball).radius;
     return s * s / (2 * std::max({a.inscribed, b.inscribed, 0.5 * s, 1e-300}));
 }
 
@@ -88,7 +89,7 @@ private:
     void merge(std::uint32_t keep, std::uint32_t drop) {
         if (clusters_[drop].neighbours.size() > clusters_[keep].neighbours.size()) std::swap(keep, drop);
         Cluster &into = clusters_[keep], &from = clusters_[drop];
-        into.ball = joinBalls(into.ball, from.ball);
+        into.ball = ballAround(into.ball, from.ball);
         into.inscribed = std::max(into.inscribed, from.inscribed);
         ++into.version;
         from.alive = false;

@@ -73,6 +73,13 @@ SharedCorners cornersOf(const std::vector<Corners>& elements) {
 
 } // namespace
 
+std::string BodyTrees::leavesText() const {
+    const auto leaves = [](const EnclosingTree& tree) {
+        return std::to_string(std::ranges::count(tree.nodes, 0u, &EnclosingTree::Node::count));
+    };
+    return leaves(a) + " + " + leaves(b) + " leaves";
+}
+
 std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description, bool nested) {
     return std::make_unique<TreeMethod>(std::move(trees), std::move(description), nested);
 }
@@ -87,11 +94,9 @@ makeMedialTrees(const ComparedPair& problem, int levels,
     const double seconds = watch.seconds();
     Description description{name + std::to_string(levels),
                             "medial sphere tree",
-                            how + ", " + std::to_string(levels) + " levels, " +
-                                std::to_string(leafCount(trees.a)) + " + " +
-                                std::to_string(leafCount(trees.b)) + " leaves" + remark,
+                            how + ", " + std::to_string(levels) + " levels, " + trees.leavesText() + remark,
                             {0, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
-                            trees.a.bytes() + trees.b.bytes(),
+                            trees.bytes(),
                             seconds};
     return makeTreeMethod(std::move(trees), std::move(description));
 }

@@ -19,12 +19,15 @@ EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, 
 /// none. (No ball inside can rest against a convex corner.)
 SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid);
 
-/// Of the two bodies of a pair.
+/// The trees of the two bodies of a pair.
 struct BodyTrees {
     EnclosingTree a, b;
+
+    std::size_t bytes() const { return a.bytes() + b.bytes(); }
+    std::string leavesText() const; ///< "12 + 34 leaves"
 };
 
-/// A method that asks two trees. nested: each ball contains those below it, as gaps need.
+/// A method that asks two trees. nested: each ball contains those below it; only then it gives gaps.
 std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description,
                                                 bool nested = false);
 
@@ -34,13 +37,7 @@ makeMedialTrees(const ComparedPair& problem, int levels,
                 EnclosingTree (*build)(const TriangleMesh&, const Solid&, int), const std::string& name,
                 const std::string& how, const std::string& remark = "");
 
-inline std::size_t leafCount(const EnclosingTree& tree) {
-    std::size_t leaves = 0;
-    for (const EnclosingTree::Node& node : tree.nodes) leaves += node.count == 0 ? 1 : 0;
-    return leaves;
-}
-
-/// Largest protrusion of a leaf from the solid.
+/// The largest protrusion of a leaf from the solid, scene units: a bound.
 double leafProtrusion(const EnclosingTree& tree, const Solid& solid);
 
 /// Elements of the surface (triangles, split where they are large), each with the inner medial ball nearest
@@ -52,7 +49,7 @@ struct MedialSurface {
     std::vector<std::pair<std::uint32_t, std::uint32_t>>
         neighbours; ///< elements that share an edge or corner
 };
-/// From a centre to the farthest corner.
+/// The distance from a centre to the farthest corner of an element.
 double reach(const Vec3& centre, const Corners& element);
 MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid);
 

@@ -24,7 +24,7 @@ std::unique_ptr<CollisionMethod> makePairList(const ComparedPair& problem);
 /// The table by its plain query, with the gap.
 std::unique_ptr<CollisionMethod> makePlainTable(const ComparedPair& problem);
 
-/// The table as applications run it: PreparedTable with the kernels of this machine.
+/// The table as applications ask it: PreparedTable with the kernels of this machine.
 std::unique_ptr<CollisionMethod> makeKernelTable(const ComparedPair& problem);
 
 /// The same in float, whatever the table's epsilon; null where that is what it is anyway.
@@ -56,7 +56,7 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem);
 
 // Motion instead of shape ------------------------------------------------------------------------------
 
-/// Answers for one pose; what the methods below are made from.
+/// The answer at one pose, which the methods below sample when they are made.
 using Oracle = std::function<bool(const PoseQuery&)>;
 using GapOracle = std::function<double(const PoseQuery&)>;
 
@@ -65,8 +65,8 @@ using GapOracle = std::function<double(const PoseQuery&)>;
 std::unique_ptr<CollisionMethod> makeAngularRegion(const ComparedPair& problem, const Oracle& oracle,
                                                    int bins, int samples, std::uint64_t seed);
 
-/// The same mixed with a free one: bins where no sample collides are free, bins where all do are contact,
-/// and in the others `inside` is asked. Shared with whoever else asks it.
+/// Slices of the leading DOF: where no sample collides the slice is free, where all do it is contact, and in
+/// the others the method `inside` is asked.
 std::unique_ptr<CollisionMethod> makeMixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins,
                                                  int samples, std::uint64_t seed,
                                                  std::shared_ptr<const CollisionMethod> inside);

@@ -55,15 +55,6 @@ Vec3 ballsCentre(std::span<const Sphere> balls) {
 
 } // namespace
 
-Sphere joinBalls(const Sphere& a, const Sphere& b) {
-    const Vec3 between = b.centre - a.centre;
-    const double distance = between.norm();
-    if (distance + b.radius <= a.radius) return a;
-    if (distance + a.radius <= b.radius) return b;
-    const double radius = 0.5 * (distance + a.radius + b.radius);
-    return {a.centre + between * ((radius - a.radius) / distance), radius};
-}
-
 Sphere coreSetBall(std::span<const Sphere> balls, double eps) {
     // Frank-Wolfe on the farthest ball: after 1/eps^2 steps of length 1/(k + 1) the centre is within eps R.
     Vec3 centre = balls[0].centre;

@@ -17,9 +17,6 @@ enum class Enclosure {
 /// contain them whatever the arithmetic before did.
 Sphere enclosingBall(std::span<const Sphere> balls, Enclosure how);
 
-/// The least ball about two.
-Sphere joinBalls(const Sphere& a, const Sphere& b);
-
 /// The core-set approximation: the radius is at most (1 + eps) times the least, eps in (0, 1).
 Sphere coreSetBall(std::span<const Sphere> balls, double eps);
 

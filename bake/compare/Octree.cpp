@@ -7,8 +7,8 @@ namespace tss::compare {
 
 namespace {
 
-/// Is there a separating axis between the triangle and the cube about the origin? Coordinates are relative
-/// to the cube's centre. Errs towards "overlap" by a hair, so that no piece of surface falls between cubes.
+/// Whether there is a separating axis between a triangle and a cube about the origin of half width `half`.
+/// The cube is made a little larger, so that rounding loses no piece of surface between cubes.
 bool separated(const Vec3& a, const Vec3& b, const Vec3& c, double half) {
     const double h = half * (1 + 1e-9);
     const auto apart = [&](const Vec3& axis) {
@@ -84,10 +84,9 @@ std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int lev
     Description description{"octree-" + std::to_string(levels),
                             "octree sphere tree",
                             "balls about the cubes that the surface passes, " + std::to_string(levels) +
-                                " levels, " + std::to_string(leafCount(trees.a)) + " + " +
-                                std::to_string(leafCount(trees.b)) + " leaves",
+                                " levels, " + trees.leavesText(),
                             {0, early},
-                            trees.a.bytes() + trees.b.bytes(),
+                            trees.bytes(),
                             seconds};
     return makeTreeMethod(std::move(trees), std::move(description));
 }

@@ -93,7 +93,7 @@ std::unique_ptr<CollisionMethod> makeOrourkeBadler(const ComparedPair& problem) 
             std::to_string(a.size()) + " + " + std::to_string(b.size()) +
             " balls, tree of 8; inscribed, so that shallow contacts are missed",
         {miss, leafProtrusion(trees.a, solidA) + leafProtrusion(trees.b, solidB)},
-        trees.a.bytes() + trees.b.bytes(),
+        trees.bytes(),
         seconds};
     return makeTreeMethod(std::move(trees), std::move(description));
 }

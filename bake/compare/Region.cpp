@@ -23,7 +23,8 @@ struct Bins {
     }
 };
 
-/// What the samples in a slice of the leading DOF say. The slice's two ends are always among them.
+/// Whether all, some or none of the samples in a slice of the leading DOF collide. Its two ends are among the
+/// samples.
 Bin classify(const ComparedPair& problem, const Oracle& oracle, std::size_t dof, double low, double high,
              int samples, std::uint64_t seed) {
     std::mt19937_64 random(seed);

@@ -30,10 +30,11 @@ std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, Tre
     const double seconds = watch.seconds();
     const std::string how = enclosureName(enclosure);
     const Table& table = problem.table;
-    // The spheres that a table uses all belong to the model: every one of their contacts is one of the
-    // model's, and they contain the table's own tests.
-    StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
-    // Without the tolerance from which the tests report on.
+    // The spheres that a table uses are some of the model's: their contacts are among the model's, so that
+    // they are no earlier; and all tests of the table are among their pairs, so that they miss no more than
+    // the table.
+    StatedError stated = statedBySpheres(problem);
+    // A table's tests report from epsilon on, the spheres by themselves from 0 on.
     if (!all) stated.miss.reset();
     if (!all && table.certified && table.boundMiss) stated.miss = *table.boundMiss + table.epsilon;
     Description description{std::string(all ? "tree-all-" : "tree-used-") + std::to_string(arity) + "-" + how,
@@ -42,7 +43,7 @@ std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, Tre
                                 (all ? "all spheres (case 1)" : "the table's spheres (case 2)") +
                                 ", median split, inner balls: " + how,
                             stated,
-                            trees.a.bytes() + trees.b.bytes(),
+                            trees.bytes(),
                             seconds};
     return makeTreeMethod(std::move(trees), std::move(description), true);
 }

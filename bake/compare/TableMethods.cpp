@@ -7,13 +7,13 @@ namespace tss::compare {
 
 namespace {
 
-/// A table that lets pairs overlap as they do at rest promises no contact of the meshes there.
+/// What a table promises; of misses nothing where it has an exempt region, whose contact it does not report.
 StatedError statedOf(const Table& table) {
     if (!table.certified) return {};
     return {table.restRegion.empty() ? table.boundMiss : std::nullopt, table.boundEarly};
 }
 
-/// As the paper runs it: for each sphere of A its row of spheres of B, through indices.
+/// The paper's loop: for each sphere of A the spheres of B in its row, through indices.
 class PairList final : public CollisionMethodLoop<PairList> {
 public:
     explicit PairList(const ComparedPair& problem) : table_(problem.table) {
@@ -36,9 +36,7 @@ public:
         return false;
     }
     /// A step of the paper makes every test of the table, whatever the outcome.
-    std::optional<Work> work(const PoseQuery&) const override {
-        return Work{table_.testCount(), table_.testCount() * productsPerSphereTest};
-    }
+    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(table_.testCount()); }
 
 private:
     const Table& table_;
@@ -55,9 +53,7 @@ public:
     std::optional<double> gap(const PoseQuery& query) const override {
         return tss::query(table_, query.pose).gap;
     }
-    std::optional<Work> work(const PoseQuery&) const override {
-        return Work{table_.testCount(), table_.testCount() * productsPerSphereTest};
-    }
+    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(table_.testCount()); }
 
 private:
     const Table& table_;
@@ -84,9 +80,7 @@ public:
         prepared_.features(query.q.data(), features);
         return prepared_.gap(features).gap;
     }
-    std::optional<Work> work(const PoseQuery&) const override {
-        return Work{prepared_.testCount(), prepared_.testCount() * productsPerSphereTest};
-    }
+    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(prepared_.testCount()); }
 
 private:
     PreparedTable prepared_;

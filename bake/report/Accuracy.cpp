@@ -12,9 +12,9 @@ namespace tss::reporting {
 
 namespace {
 
-/// Depth of the deepest of these points inside the solid. Points are in the solid's frame.
-double deepest(const Solid& solid, const Eigen::AlignedBox3d& box, const std::vector<Vec3>& points,
-               const Pose& toSolid, double best) {
+/// The largest depth of these points inside the solid, no less than `best`. toSolid: from the points' frame.
+double deepestInside(const Solid& solid, const Eigen::AlignedBox3d& box, const std::vector<Vec3>& points,
+                     const Pose& toSolid, double best) {
     for (const Vec3& point : points) {
         const Vec3 p = toSolid * point;
         if (!box.contains(p)) continue;
@@ -74,7 +74,7 @@ JudgedPoses::JudgedPoses(const compare::ComparedPair& problem, const compare::Me
                          const std::vector<std::vector<double>>& values)
     : problem_(problem), truth_(truth), solidA_(problem.meshA), solidB_(problem.meshB) {
     const std::vector<Vec3> partsA = oneOfEach(problem.meshA), partsB = oneOfEach(problem.meshB);
-    enum : char { Free, Touching, Swallowed };
+    enum : char { Free, Touching, Enclosed };
     const auto all = compare::poseQueries(problem.motion, values);
     std::vector<char> verdicts(all.size());
     parallelFor(all.size(), [&](std::size_t i) {
@@ -82,10 +82,10 @@ JudgedPoses::JudgedPoses(const compare::ComparedPair& problem, const compare::Me
         if (truth.touches(toA))
             verdicts[i] = Touching;
         else if (anyInside(solidA_, partsB, toA) || anyInside(solidB_, partsA, toA.inverse(Eigen::Isometry)))
-            verdicts[i] = Swallowed;
+            verdicts[i] = Enclosed;
     });
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (verdicts[i] == Swallowed) {
+        if (verdicts[i] == Enclosed) {
             ++leftOut_;
             continue;
         }
@@ -110,9 +110,9 @@ std::size_t JudgedPoses::freeWithin(double distance) const {
 double JudgedPoses::depth(std::size_t pose) const {
     if (known_[pose] < 0) {
         const Pose& toA = queries_[pose].pose;
-        double depth = deepest(solidA_, bounds(problem_.meshA), problem_.meshB.vertices, toA, 0);
-        depth = deepest(solidB_, bounds(problem_.meshB), problem_.meshA.vertices,
-                        toA.inverse(Eigen::Isometry), depth);
+        double depth = deepestInside(solidA_, bounds(problem_.meshA), problem_.meshB.vertices, toA, 0);
+        depth = deepestInside(solidB_, bounds(problem_.meshB), problem_.meshA.vertices,
+                              toA.inverse(Eigen::Isometry), depth);
         known_[pose] = depth;
     }
     return known_[pose];

@@ -33,10 +33,10 @@ constexpr const char* names[] = {"tss",
                                  "fcl-aabb",
                                  "bullet-gimpact"};
 
-/// Builds what is wanted and takes note of what cannot be.
-class Entry {
+/// Adds methods to a set: those that are wanted by name, and notes of those that cannot be built.
+class MethodAdder {
 public:
-    Entry(MethodSet& methods, const std::vector<std::string>& only) : methods_(methods), only_(only) {}
+    MethodAdder(MethodSet& methods, const std::vector<std::string>& only) : methods_(methods), only_(only) {}
 
     template <class Make>
     void add(const std::string& name, const Make& make) {
@@ -63,34 +63,34 @@ private:
     const std::vector<std::string>& only_;
 };
 
-void addTables(Entry& entry, const ComparedPair& problem) {
-    entry.add("tss", [&] { return makeKernelTable(problem); });
-    entry.add("tss-float", [&] { return makeFloatTable(problem); });
-    entry.add("tss-scalar", [&] { return makePairList(problem); });
+void addTables(MethodAdder& adder, const ComparedPair& problem) {
+    adder.add("tss", [&] { return makeKernelTable(problem); });
+    adder.add("tss-float", [&] { return makeFloatTable(problem); });
+    adder.add("tss-scalar", [&] { return makePairList(problem); });
 }
 
-void addTrees(Entry& entry, const ComparedPair& problem) {
+void addTrees(MethodAdder& adder, const ComparedPair& problem) {
     for (const TreeOf of : {TreeOf::All, TreeOf::Used}) {
         const std::string name = of == TreeOf::All ? "tree-all" : "tree-used";
         for (const Enclosure how : {Enclosure::Balls, Enclosure::Points, Enclosure::CoreSet, Enclosure::Box})
-            entry.add(name, [&] { return makeSphereTree(problem, of, 8, how); });
-        entry.add(name, [&] { return makeSphereTree(problem, of, 2, Enclosure::Balls); });
+            adder.add(name, [&] { return makeSphereTree(problem, of, 8, how); });
+        adder.add(name, [&] { return makeSphereTree(problem, of, 2, Enclosure::Balls); });
     }
 }
 
-void addBodyTrees(Entry& entry, const ComparedPair& problem, bool quick) {
+void addBodyTrees(MethodAdder& adder, const ComparedPair& problem, bool quick) {
     for (int levels = 4; levels <= (quick ? 6 : 8); levels += quick ? 2 : 1)
-        entry.add("octree", [&] { return makeOctree(problem, levels); });
+        adder.add("octree", [&] { return makeOctree(problem, levels); });
     for (int levels = 3; levels <= (quick ? 3 : 5); ++levels) {
-        entry.add("medial-hubbard", [&] { return makeHubbard(problem, levels); });
-        entry.add("medial-adaptive", [&] { return makeAdaptiveMedial(problem, levels); });
+        adder.add("medial-hubbard", [&] { return makeHubbard(problem, levels); });
+        adder.add("medial-adaptive", [&] { return makeAdaptiveMedial(problem, levels); });
     }
-    entry.add("orourke-badler", [&] { return makeOrourkeBadler(problem); });
+    adder.add("orourke-badler", [&] { return makeOrourkeBadler(problem); });
 }
 
-/// What the methods below are made from: the whole sphere model, asked through its trees.
-struct Asked {
-    explicit Asked(const ComparedPair& problem)
+/// The whole sphere model, spheres through trees, which the methods below sample when they are made.
+struct SphereModel {
+    explicit SphereModel(const ComparedPair& problem)
         : a(std::make_shared<EnclosingTree>(buildEnclosingTree(problem.a, 8, Enclosure::Balls))),
           b(std::make_shared<EnclosingTree>(buildEnclosingTree(problem.b, 8, Enclosure::Balls))) {}
     bool hit(const PoseQuery& query) const {
@@ -112,41 +112,41 @@ std::vector<int> gridPoints(std::size_t dofs, bool quick) {
     return points;
 }
 
-void addGrid(Entry& entry, const ComparedPair& problem, const Asked& asked, int points) {
-    const StatedError stated{missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)};
-    entry.add("gap-grid", [&] {
+void addGrid(MethodAdder& adder, const ComparedPair& problem, const SphereModel& spheres, int points) {
+    adder.add("gap-grid", [&] {
         return makeGapGrid(
-            problem, [asked](const PoseQuery& query) { return asked.gap(query); }, points, stated);
+            problem, [spheres](const PoseQuery& query) { return spheres.gap(query); }, points,
+            statedBySpheres(problem));
     });
 }
 
 /// Methods that store the motion rather than the shape.
-void addMotionMethods(Entry& entry, const ComparedPair& problem, bool quick, std::uint64_t seed) {
-    const Asked asked(problem);
-    const Oracle hit = [asked](const PoseQuery& query) { return asked.hit(query); };
+void addMotionMethods(MethodAdder& adder, const ComparedPair& problem, bool quick, std::uint64_t seed) {
+    const SphereModel spheres(problem);
+    const Oracle hit = [spheres](const PoseQuery& query) { return spheres.hit(query); };
     const std::size_t dofs = problem.motion.dofCount();
     const int bins = 256, samples = dofs == 1 ? 9 : 128;
-    entry.add("angular-region", [&] { return makeAngularRegion(problem, hit, bins, samples, seed); });
-    entry.add("mixed-region",
+    adder.add("angular-region", [&] { return makeAngularRegion(problem, hit, bins, samples, seed); });
+    adder.add("mixed-region",
               [&] { return makeMixedRegion(problem, hit, bins, samples, seed, makeKernelTable(problem)); });
-    entry.add("mixed-region", [&] {
+    adder.add("mixed-region", [&] {
         return makeMixedRegion(problem, hit, bins, samples, seed,
                                makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls));
     });
     for (const int paths : quick ? std::vector{17} : std::vector{9, 33, 129}) {
         if (dofs > 2 && paths > 33) continue;
-        entry.add("allowed-paths",
+        adder.add("allowed-paths",
                   [&] { return makeAllowedPaths(problem, hit, dofs == 1 ? 1 : paths, 200); });
         if (dofs == 1) break;
     }
-    for (const int points : gridPoints(dofs, quick)) addGrid(entry, problem, asked, points);
+    for (const int points : gridPoints(dofs, quick)) addGrid(adder, problem, spheres, points);
 }
 
-void addMeshMethods(Entry& entry, const ComparedPair& problem) {
-    entry.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
-    entry.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
-    entry.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
-    entry.add("bullet-gimpact", [&] { return makeGimpact(problem); });
+void addMeshMethods(MethodAdder& adder, const ComparedPair& problem) {
+    adder.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
+    adder.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
+    adder.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
+    adder.add("bullet-gimpact", [&] { return makeGimpact(problem); });
 }
 
 } // namespace
@@ -155,30 +155,31 @@ std::span<const char* const> methodNames() {
     return names;
 }
 
-MethodSet makeMethods(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+MethodSet makeMethods(const Model& model, MethodScope scope, bool quick, const std::vector<std::string>& only,
                       std::uint64_t seed) {
     MethodSet methods;
-    Entry entry(methods, only);
+    MethodAdder adder(methods, only);
     const ComparedPair& problem = model.problem;
-    addTables(entry, problem);
-    if (field == Field::Table) return methods;
-    if (field == Field::Model) {
-        entry.add("tree-all", [&] { return makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls); });
-        entry.add("tree-used", [&] { return makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls); });
-        entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
+    addTables(adder, problem);
+    if (scope == MethodScope::Table) return methods;
+    if (scope == MethodScope::Spheres) {
+        adder.add("tree-all", [&] { return makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls); });
+        adder.add("tree-used", [&] { return makeSphereTree(problem, TreeOf::Used, 8, Enclosure::Balls); });
+        adder.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
         if (problem.motion.dofCount() <= 2)
-            addGrid(entry, problem, Asked(problem), gridPoints(problem.motion.dofCount(), quick).back());
+            addGrid(adder, problem, SphereModel(problem),
+                    gridPoints(problem.motion.dofCount(), quick).back());
         return methods;
     }
-    entry.add("tss-plain", [&] { return makePlainTable(problem); });
-    entry.add("all-pairs", [&] { return makeAllPairs(problem); });
-    entry.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
-    addTrees(entry, problem);
-    addBodyTrees(entry, problem, quick);
-    addMotionMethods(entry, problem, quick, seed);
-    addMeshMethods(entry, problem);
-    entry.skip("bent ellipsoid", "stands for a muscle under a skin; a rigid pair of meshes has none");
-    if (quick) entry.skip("finer octrees, medial trees, paths and grids", "left out by --quick");
+    adder.add("tss-plain", [&] { return makePlainTable(problem); });
+    adder.add("all-pairs", [&] { return makeAllPairs(problem); });
+    adder.add("all-pairs-simd", [&] { return makeAllPairsSimd(problem); });
+    addTrees(adder, problem);
+    addBodyTrees(adder, problem, quick);
+    addMotionMethods(adder, problem, quick, seed);
+    addMeshMethods(adder, problem);
+    adder.skip("bent ellipsoid", "stands for a muscle under a skin; a rigid pair of meshes has none");
+    if (quick) adder.skip("finer octrees, medial trees, paths and grids", "left out by --quick");
     return methods;
 }
 

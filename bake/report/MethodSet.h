@@ -18,10 +18,11 @@ struct MethodSet {
     std::vector<NotRun> notRun;
 };
 
-enum class Field {
-    Whole, ///< every method
-    Model, ///< the methods whose error follows the spheres, for a sweep
-    Table, ///< the table alone
+/// Which methods are made for a model.
+enum class MethodScope {
+    All,     ///< every method
+    Spheres, ///< those whose error depends on the spheres, for a sweep over models
+    Table,   ///< the table alone
 };
 
 /// The names of all methods, for `only` below.
@@ -29,7 +30,7 @@ std::span<const char* const> methodNames();
 
 /// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of
 /// names or families wanted, empty: all. seed: of the sampled ones.
-MethodSet makeMethods(const Model& model, Field field, bool quick, const std::vector<std::string>& only,
+MethodSet makeMethods(const Model& model, MethodScope scope, bool quick, const std::vector<std::string>& only,
                       std::uint64_t seed);
 
 } // namespace tss::reporting

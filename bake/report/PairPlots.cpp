@@ -11,14 +11,11 @@ namespace tss::reporting {
 
 namespace {
 
-/// What is drawn at the bottom of a logarithmic axis for an error of 0, in millimetres.
-constexpr double noError = 1e-4;
-
-/// The same for the share of wrong verdicts, in per cent: less than one pose of those judged.
-constexpr double noneWrong = 1e-3;
+/// The same for the share of wrong verdicts, per cent: less than one pose of those judged.
+constexpr double leastWrongDrawn = 1e-3;
 
 double errorOf(const Row& row, double millimetres) {
-    return std::max(noError, row.worst() * millimetres);
+    return std::max(leastErrorDrawn, row.worst() * millimetres);
 }
 
 /// One axis of a plot of all rows.
@@ -218,22 +215,22 @@ std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, c
                       [](const Row& row) { return double(row.about.bytes); }};
     const Axis worst{"worst error, mm", [mm](const Row& row) { return errorOf(row, mm); }};
     const Axis wrong{"wrong verdicts at uniform poses, %",
-                     [](const Row& row) { return std::max(noneWrong, 100 * row.wrong()); }};
+                     [](const Row& row) { return std::max(leastWrongDrawn, 100 * row.wrong()); }};
     drawErrors(
-        drawing, study, "pareto", fmt::format("Error against run time: {}", against), time, worst, noError,
-        true,
+        drawing, study, "pareto", fmt::format("Error against run time: {}", against), time, worst,
+        leastErrorDrawn, true,
         fmt::format(
             "Worst error against the meshes (deepest contact missed or farthest early contact, at uniform "
             "and near-contact poses) against the time of a query, every method with every setting. Methods "
             "with no error, or less, stand at {} mm. Nothing beats in both what lies on the Pareto front.",
-            noError));
+            leastErrorDrawn));
     drawErrors(drawing, study, "verdicts", fmt::format("Wrong verdicts against run time: {}", against), time,
-               wrong, noneWrong, true,
+               wrong, leastWrongDrawn, true,
                fmt::format("How often a method is wrong, against its time: contacts missed and early ones "
                            "together, of all uniform poses. None stands at {} %.",
-                           noneWrong));
+                           leastWrongDrawn));
     drawErrors(drawing, study, "memory", fmt::format("Error against memory: {}", against), memory, worst,
-               noError, true, "The worst errors against what each method keeps in memory.");
+               leastErrorDrawn, true, "The worst errors against what each method keeps in memory.");
     drawSteps(drawing, study);
     drawRegion(drawing, study);
     drawSampling(drawing, study);

@@ -14,10 +14,11 @@ namespace tss::reporting {
 namespace {
 
 using namespace compare;
+
 /// Steps in which first contact is looked for along a way.
 constexpr int closingSteps = 200;
 
-/// Slow methods are judged at one in so many of the poses, the first.
+/// Slow methods are judged at the first one in so many of the poses.
 constexpr std::size_t slowPart = 10;
 
 struct Sizes {
@@ -35,7 +36,7 @@ Sizes sizesFor(bool quick) {
 struct StudiedModel {
     std::unique_ptr<Model> model;
     std::string about;
-    Field field;
+    MethodScope scope;
     MethodSet methods;
 };
 
@@ -61,7 +62,8 @@ BakeOptions baseOptions(const SceneModel& scene, const Pair& pair, const Triangl
 
 BakePoint bakePoint(const StudiedModel& studied) {
     const Model& model = *studied.model;
-    const Table& table = model.problem.table;
+    const ComparedPair& problem = model.problem;
+    const Table& table = problem.table;
     BakePoint point;
     point.name = model.recipe.name;
     point.about = studied.about;
@@ -70,11 +72,10 @@ BakePoint bakePoint(const StudiedModel& studied) {
     const auto sticksOut = [](const FitRecord& fit, const SphereSet& spheres, const TriangleMesh& mesh) {
         return fit.protrusion ? *fit.protrusion : protrusionOf(spheres, mesh);
     };
-    const ComparedPair& problem = model.problem;
     point.protrusion = std::max(sticksOut(problem.fitA, problem.a, problem.meshA),
                                 sticksOut(problem.fitB, problem.b, problem.meshB));
-    point.spheresA = model.problem.a.size();
-    point.spheresB = model.problem.b.size();
+    point.spheresA = problem.a.size();
+    point.spheresB = problem.b.size();
     point.usedA = table.a.size();
     point.usedB = table.b.size();
     point.tests = table.testCount();
@@ -99,13 +100,13 @@ void fillWork(Row& row, const CollisionMethod& method, std::span<const PoseQuery
     row.products = products / static_cast<double>(queries.size());
 }
 
-/// Does the method stand on the sphere model, so that its setting is the spheres' tolerance?
+/// Whether a method of this family is made from the sphere model, so that the model's name is its setting.
 bool onSpheres(const std::string& family) {
     return family.rfind("mesh tree", 0) != 0 && family != "octree sphere tree" &&
            family != "medial sphere tree" && family != "O'Rourke-Badler";
 }
 
-/// FCL without the interface that all methods share: what that costs shows in the difference.
+/// FCL asked with as little as possible in between, to show what the interface of the methods costs.
 class FclDirectly final : public CollisionMethodLoop<FclDirectly> {
 public:
     explicit FclDirectly(const MeshTruth& truth) : truth_(truth) {}
@@ -165,7 +166,7 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     study.nameB = primName(scene.bodies[pair.bodyB].path);
     study.millimetres = 1000 * scene.metersPerUnit;
     for (const Dof& dof : motion.dofs) {
-        const double factor = dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
+        const double factor = unitsPer(dof);
         study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g} {}", dof.name, dof.lower * factor,
                                          dof.upper * factor, unitOf(dof, scene.metersPerUnit)));
     }
@@ -176,7 +177,7 @@ BakeOptions byTolerance(PairStudy& study, const SceneModel& scene, const Pair& p
                         const Progress& progress) {
     if (asked.maxSpheres == 0) return asked;
     report(progress, study.path + ": spheres, as many as the scene asks for", 0);
-    const StudiedModel most{makeModel(scene, pair, {"", asked}), "", Field::Whole, {}};
+    const StudiedModel most{makeModel(scene, pair, {"", asked}), "", MethodScope::All, {}};
     const BakePoint point = bakePoint(most);
     study.notes.push_back(fmt::format("The scene asks for at most {} spheres a body; these, {} + {}, stick "
                                       "out by {} mm, the tolerance that "
@@ -199,7 +200,8 @@ std::size_t addTolerances(PairStudy& study, const SceneModel& scene, const Pair&
         const Recipe recipe = named(changed, study.millimetres);
         report(progress, study.path + ": spheres and table, " + recipe.name, 0);
         if (factor == 1) base = field.size();
-        field.push_back({makeModel(scene, pair, recipe), "", factor == 1 ? Field::Whole : Field::Model, {}});
+        field.push_back(
+            {makeModel(scene, pair, recipe), "", factor == 1 ? MethodScope::All : MethodScope::Spheres, {}});
         study.tolerances.push_back(bakePoint(field.back()));
     }
     study.base = study.tolerances[base];
@@ -215,15 +217,9 @@ void addEpsilons(PairStudy& study, const Model& model, const BakeOptions& asked,
         changed.epsilon = factor * *asked.tolerance;
         const Recipe recipe = named(changed, study.millimetres);
         report(progress, study.path + ": table, " + recipe.name, 0);
-        field.push_back({makeModel(model, recipe), "", Field::Table, {}});
+        field.push_back({makeModel(model, recipe), "", MethodScope::Table, {}});
         study.epsilons.push_back(bakePoint(field.back()));
     }
-}
-
-} // namespace
-
-double Row::worst() const {
-    return std::max({uniform.deepestMiss, near.deepestMiss, uniform.farthestEarly, near.farthestEarly});
 }
 
 /// Other tables and other spheres at the base's tolerance: what the paper does, and what is lost or won.
@@ -236,10 +232,10 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
     };
     std::vector<StudiedModel> models;
     const auto fill = [&](const Recipe& recipe, const std::string& about) {
-        models.push_back({makeModel(scene, pair, recipe), about, Field::Model, {}});
+        models.push_back({makeModel(scene, pair, recipe), about, MethodScope::Spheres, {}});
     };
     const auto tabulate = [&](const Recipe& recipe, const std::string& about) {
-        models.push_back({makeModel(base, recipe), about, Field::Table, {}});
+        models.push_back({makeModel(base, recipe), about, MethodScope::Table, {}});
     };
     fill(with("paper",
               [&](BakeOptions& o) {
@@ -260,7 +256,7 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
     if (!quick) {
         models.push_back({wholeBodies(base, with("whole bodies", [](BakeOptions&) {})),
                           "our spheres over the whole surfaces, not only where the two can meet",
-                          Field::Model,
+                          MethodScope::Spheres,
                           {}});
         fill(with("inscribed", [](BakeOptions& o) { o.conservative = false; }),
              "spheres inside the bodies instead of about their surface (`--no-conservative`)");
@@ -286,6 +282,16 @@ std::vector<StudiedModel> otherRecipes(const SceneModel& scene, const Pair& pair
                  : "what `tss bake` stores: the region that overlaps at rest touches only where it goes "
                    "deeper");
     return models;
+}
+
+} // namespace
+
+double Row::worst() const {
+    return std::max(deepestMiss(), farthestEarly());
+}
+
+double unitsPer(const Dof& dof) {
+    return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
 }
 
 std::string unitOf(const Dof& dof, double metersPerUnit) {
@@ -364,8 +370,8 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     for (StudiedModel& studied : field) {
         report(progress, study.path + ": building methods, " + studied.model->recipe.name, 0);
         studied.methods =
-            makeMethods(*studied.model, studied.field, options.quick, options.methods, options.seed + 3);
-        if (studied.field == Field::Whole) study.notRun = studied.methods.notRun;
+            makeMethods(*studied.model, studied.scope, options.quick, options.methods, options.seed + 3);
+        if (studied.scope == MethodScope::All) study.notRun = studied.methods.notRun;
     }
     measureRows(study, field, truth, uniform, near, motions, sizes, progress);
 

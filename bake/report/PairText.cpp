@@ -56,8 +56,7 @@ std::string methodTable(const PairStudy& study) {
 /// What lies on the front of the plot, in words.
 std::string frontText(const PairStudy& study) {
     const double mm = study.millimetres;
-    // What errs by less than the plot can show has no error here either.
-    const auto worst = [mm](const Row& row) { return std::max(1e-4, mm * row.worst()); };
+    const auto worst = [mm](const Row& row) { return std::max(leastErrorDrawn, mm * row.worst()); };
     std::string text = "On the front:";
     for (const Row* row : paretoFront(
              study.rows, [](const Row& r) { return r.times.median; }, worst))
@@ -180,7 +179,7 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
         spheres += fmt::format(" {} + {} |", point.spheresA, point.spheresB);
         used += fmt::format(" {} + {} |", point.usedA, point.usedB);
         tests += fmt::format(" {} |", point.tests);
-        products += fmt::format(" {} |", 4 * point.tests);
+        products += fmt::format(" {} |", compare::productsPerSphereTest * point.tests);
     };
     for (const BakePoint& recipe : study.recipes)
         if (recipe.name == "paper") column("the paper's recipe on this pair", recipe);

@@ -9,6 +9,10 @@ struct Plot {
     std::string file, caption;
 };
 
+/// Errors are drawn on a logarithmic axis: smaller ones of a pair's methods, 0 among them, count as this,
+/// millimetres.
+constexpr double leastErrorDrawn = 1e-4;
+
 /// Draws the plots of a pair as SVG into folder/plots by gnuplot, data and scripts beside them, so that
 /// anyone can draw them again. stem: what their names begin with. Where gnuplot cannot be run, no plot is in
 /// the list, and `problem` says why.

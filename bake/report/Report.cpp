@@ -3,6 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/base/Stopwatch.h"
+#include "bake/pipeline/Bake.h"
 #include "bake/report/MethodSet.h"
 #include "bake/report/Page.h"
 
@@ -24,10 +25,7 @@ std::string stemOf(const std::string& path, bool alone) {
 void checkPaths(const SceneModel& scene, const ReportOptions& options, const std::string& file) {
     if (scene.pairs.empty() && scene.skins.empty())
         throw InputError(Where{file}, "expected a scene with a pair or a skin to report on");
-    for (const std::string& path : options.pairs) {
-        if (findPair(scene, path) < 0 && findSkin(scene, path) < 0)
-            throw InputError(Where{file, "", path}, "no pair and no skin of this path in the scene");
-    }
+    expectPaths(scene, options.pairs, file);
 }
 
 void checkMethods(const std::vector<std::string>& wanted) {
@@ -43,14 +41,6 @@ void checkMethods(const std::vector<std::string>& wanted) {
             throw InputError(
                 fmt::format("--methods: no method has \"{}\" in its name; expected parts of{}", part, all));
     }
-}
-
-/// Of the pair's DOFs, the one that the study follows; 0 where it follows none.
-std::size_t leadingDof(const SceneModel& scene, const Pair& pair, const PairStudy& study) {
-    const Motion motion = pairMotion(scene, pair);
-    for (std::size_t k = 0; k < motion.dofs.size(); ++k)
-        if (motion.dofs[k].name == study.leadingDof) return k;
-    return 0;
 }
 
 } // namespace
@@ -76,7 +66,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     for (const Pair& pair : scene.pairs) {
         if (!wanted(pair.path)) continue;
         result.pairs.push_back(studyPair(scene, pair, options, progress));
-        result.pairPictures.push_back(picturesOf(scene, pair, leadingDof(scene, pair, result.pairs.back())));
+        result.pairPictures.push_back(picturesOf(scene, pair, result.pairs.back().leading));
     }
     for (const SkinModel& skin : scene.skins)
         if (wanted(skin.path)) result.skins.push_back(studySkin(scene, skin, options, progress));

@@ -2,6 +2,7 @@
 
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/EnclosingTree.h"
+#include "bake/report/Timing.h"
 
 #include <algorithm>
 #include <functional>
@@ -27,8 +28,7 @@ Work allPairs(const SkinSetting& setting, const SkinStep& step, Found& found) {
     for (std::size_t i = 0; i < setting.skin.size(); ++i)
         for (const Sphere& sphere : step.muscle)
             found[i] = found[i] | (overlap(setting.skin[i], sphere) ? 1 : 0);
-    const std::uint64_t tests = setting.skin.size() * step.muscle.size();
-    return {tests, tests * productsPerSphereTest};
+    return sphereTests(setting.skin.size() * step.muscle.size());
 }
 
 Work byTable(const SkinSetting& setting, const SkinStep& step, Found& found) {
@@ -38,7 +38,7 @@ Work byTable(const SkinSetting& setting, const SkinStep& step, Found& found) {
         for (std::uint32_t k = table.rowOffsets[row]; k < table.rowOffsets[row + 1]; ++k)
             if (overlap(sphere, step.muscle[table.columns[k]])) found[setting.rowVertex[row]] = 1;
     }
-    return {table.testCount(), table.testCount() * productsPerSphereTest};
+    return sphereTests(table.testCount());
 }
 
 /// A tree over spheres that move: the shape of the tree stays, its balls follow each step.
@@ -128,11 +128,9 @@ void judge(SkinMethod& method, const SkinSetting& setting, const Method& run) {
             run(step, found);
             rounds.push_back(1e9 * (threadSeconds() - start));
         }
-        std::ranges::sort(rounds);
-        times.push_back(rounds[2]);
+        times.push_back(median(std::move(rounds)));
     }
-    std::ranges::sort(times);
-    method.nanoseconds = times[times.size() / 2];
+    method.nanoseconds = median(std::move(times));
 }
 
 void addMethod(SkinStudy& study, const SkinSetting& setting, const std::string& name,

@@ -153,8 +153,7 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
                 answer.areaChange, std::abs(areaOf(positions, played.rig.triangles) / played.restArea - 1));
     }
     answer.rms = std::sqrt(squares / (steps * static_cast<double>(played.rig.vertices.size())));
-    std::ranges::sort(times);
-    if (!times.empty()) answer.nanoseconds = times[times.size() / 2];
+    if (!times.empty()) answer.nanoseconds = median(std::move(times));
     return answer;
 }
 

@@ -22,7 +22,7 @@ std::string countTable(const SkinStudy& study, bool besidePaper) {
         paper("---|"), paper(" 1426 + 280 |"), study.skinSpheres, study.muscleSpheres, study.skinSpheres,
         study.muscleSpheres, paper(" 70 + 190 |"), study.usedSkin, study.usedMuscle, study.carriedSkin,
         study.carriedMuscle, paper(" 268 |"), study.tests, study.carriedTests, paper(" 1072 |"),
-        4 * study.tests, 4 * study.carriedTests);
+        compare::productsPerSphereTest * study.tests, compare::productsPerSphereTest * study.carriedTests);
     const auto withEllipsoids = [&](std::size_t spheres) {
         return study.productsEllipsoid * static_cast<double>(spheres * study.below());
     };

@@ -37,11 +37,13 @@ struct Row {
     double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
     double wrong() const; ///< share of the uniform poses with a wrong verdict
     std::size_t misses() const { return uniform.missed + near.missed; }
-    /// Judged at some of the poses only: its worst error is not to be held against those of others.
+    /// Whether it was judged at some of the poses only: its worst error does not compare with those of
+    /// others.
     bool slow() const { return about.slow; }
 };
 
-/// The rows that no other beats in both numbers, by rising x; rows with x <= 0 and slow ones take no part.
+/// The Pareto front: the rows that no other one beats in both numbers, by rising x. Rows with x <= 0 and slow
+/// ones are left out.
 std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
                                     const std::function<double(const Row&)>& y);
 
@@ -97,7 +99,8 @@ struct PairStudy {
     std::string path, nameA, nameB;
     std::size_t trianglesA = 0, trianglesB = 0;
     std::vector<std::string> dofs;       ///< name and limits in words
-    std::string leadingDof, leadingUnit; ///< unit: see unitOf()
+    std::size_t leading = 0;             ///< index of the leading DOF; 0 where nothing is compared
+    std::string leadingDof, leadingUnit; ///< its name and unit, see unitOf()
     double millimetres = 1;              ///< in a scene unit
     std::optional<std::string> never;    ///< that the two never meet, in words: nothing is compared then
     std::vector<std::string> notes;      ///< sentences of what a reader has to know first
@@ -118,7 +121,10 @@ struct PairStudy {
     double seconds = 0;
 };
 
-/// What a DOF's values are: "degrees", "times 1 mm", "of its path".
+/// A DOF's value in the unit of unitOf() over its value in the core: degrees for radians, else 1.
+double unitsPer(const Dof& dof);
+
+/// The unit of a DOF's values as reports have them: "degrees", "times 1 mm", "of its path".
 std::string unitOf(const Dof& dof, double metersPerUnit);
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,

@@ -1,6 +1,5 @@
 #include "bake/report/PairStudy.h"
 
-#include "bake/base/Degrees.h"
 #include "bake/base/Parallel.h"
 #include "bake/motion/RandomPoses.h"
 
@@ -12,10 +11,6 @@ namespace tss::reporting {
 namespace {
 
 using namespace compare;
-
-double degreesPer(const Dof& dof) {
-    return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
-}
 
 /// The scene's own animation of the pair where a single joint carries it, else the leading DOF from its upper
 /// limit to the lower one and back, the others at rest.
@@ -75,11 +70,11 @@ RegionCurve regionOf(const Motion& motion, std::size_t leading, int bins, int sa
     });
     RegionCurve region;
     for (int k = 0; k < bins; ++k) {
-        region.middle.push_back((dof.lower + step * (k + 0.5)) * degreesPer(dof));
+        region.middle.push_back((dof.lower + step * (k + 0.5)) * unitsPer(dof));
         region.share.push_back(static_cast<double>(hits[k]) / samples);
         if (region.share.back() == 0) continue;
-        if (region.upper == region.lower) region.lower = (dof.lower + step * k) * degreesPer(dof);
-        region.upper = (dof.lower + step * (k + 1)) * degreesPer(dof);
+        if (region.upper == region.lower) region.lower = (dof.lower + step * k) * unitsPer(dof);
+        region.upper = (dof.lower + step * (k + 1)) * unitsPer(dof);
     }
     return region;
 }
@@ -114,6 +109,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     const ComparedPair& problem = model.problem;
     const std::size_t leading = leadingDof(problem);
     const Dof& dof = problem.motion.dofs[leading];
+    study.leading = leading;
     study.leadingDof = dof.name;
     study.leadingUnit = unitOf(dof, scene.metersPerUnit);
     const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
@@ -125,7 +121,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     const auto queries =
         poseQueries(problem.motion, motionSteps(scene, pair, problem, options, steps, study.steps.motion));
     for (const PoseQuery& query : queries) {
-        const double value = query.q[leading] * degreesPer(dof);
+        const double value = query.q[leading] * unitsPer(dof);
         study.steps.leading.push_back(value);
         study.steps.touching.push_back(truth.touches(query.pose) ? 1 : 0);
         study.steps.inRegion.push_back(study.region.spheres.contains(value));

@@ -5,6 +5,19 @@
 
 namespace tss::reporting {
 
+namespace {
+
+/// The options as the command line takes them.
+std::string optionsText(const ReportOptions& options) {
+    std::string text = options.quick ? " --quick" : "";
+    for (const std::string& pair : options.pairs) text += " --pair " + pair;
+    if (!options.methods.empty()) text += fmt::format(" --methods {}", fmt::join(options.methods, ","));
+    if (!options.motionFile.empty()) text += " --motion " + options.motionFile;
+    return text;
+}
+
+} // namespace
+
 std::string number(double value) {
     if (value == 0) return "0";
     if (std::abs(value) >= 1000) return fmt::format("{:.0f}", value);
@@ -44,15 +57,6 @@ std::string pictureText(const std::vector<Plot>& plots, const std::string& part)
         if (plot.file.ends_with("/" + part + ".svg") || plot.file.ends_with("-" + part + ".svg"))
             return fmt::format("![{}]({})\n\n{}\n\n", part, plot.file, plot.caption);
     return "";
-}
-
-/// As the command line has them.
-std::string optionsText(const ReportOptions& options) {
-    std::string text = options.quick ? " --quick" : "";
-    for (const std::string& pair : options.pairs) text += " --pair " + pair;
-    if (!options.methods.empty()) text += fmt::format(" --methods {}", fmt::join(options.methods, ","));
-    if (!options.motionFile.empty()) text += " --motion " + options.motionFile;
-    return text;
 }
 
 std::string markdownOf(const Report& report) {

@@ -7,6 +7,7 @@ namespace tss::reporting {
 
 namespace {
 
+/// How often and at which queries a method is timed.
 struct Plan {
     std::span<const compare::PoseQuery> queries;
     std::size_t repeats = 1;
@@ -21,11 +22,18 @@ double secondsOf(const compare::CollisionMethod& method, std::span<const compare
     return threadSeconds() - start;
 }
 
-double at(const std::vector<double>& sorted, double share) {
+/// The quantile of sorted values, the nearest value.
+double quantile(const std::vector<double>& sorted, double share) {
     return sorted[std::size_t(std::round(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 } // namespace
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + values.size() / 2;
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
 
 std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*>& methods,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options) {
@@ -57,11 +65,11 @@ std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*
             plan.nanoseconds.push_back(1e9 * seconds /
                                        static_cast<double>(plan.repeats * plan.queries.size()));
         }
-    [[maybe_unused]] volatile std::size_t sink = hits; // so that no loop is left out
+    [[maybe_unused]] volatile std::size_t sink = hits; // so that the compiler leaves out no loop
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::vector<double>& sorted = plans[m].nanoseconds;
         std::ranges::sort(sorted);
-        times[m] = {at(sorted, 0.5), at(sorted, 0.1), at(sorted, 0.9), plans[m].rounds,
+        times[m] = {quantile(sorted, 0.5), quantile(sorted, 0.1), quantile(sorted, 0.9), plans[m].rounds,
                     plans[m].queries.size()};
     }
     return times;

@@ -26,8 +26,9 @@ inline tss::compare::ComparedPair makeProblem(tss::TriangleMesh a, tss::Triangle
         for (std::uint32_t j = 0; j < problem.b.size(); ++j) all.push_back({i, j});
     problem.table = makeTable(problem.a, problem.b, all, {}, problem.motion);
     problem.table.certified = true; // it is the whole model
-    problem.table.boundMiss = tss::compare::missOf(problem.fitA, problem.fitB);
-    problem.table.boundEarly = tss::compare::earlyOf(problem.fitA, problem.fitB);
+    const auto stated = tss::compare::statedBySpheres(problem);
+    problem.table.boundMiss = stated.miss;
+    problem.table.boundEarly = stated.early;
     return problem;
 }
 

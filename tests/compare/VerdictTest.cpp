@@ -79,9 +79,9 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     methods.push_back(makeGimpact(problem));
     const EnclosingTree a = buildEnclosingTree(problem.a, 8, Enclosure::Balls),
                         b = buildEnclosingTree(problem.b, 8, Enclosure::Balls);
-    methods.push_back(makeGapGrid(problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); },
-                                  65,
-                                  {missOf(problem.fitA, problem.fitB), earlyOf(problem.fitA, problem.fitB)}));
+    methods.push_back(makeGapGrid(
+        problem, [&](const PoseQuery& query) { return treesGap(a, b, query.pose); }, 65,
+        statedBySpheres(problem)));
     for (const auto& method : methods) checkStated(*method, judged, 1e-9);
 }
 
