@@ -62,18 +62,14 @@ void remarkTolerance(const SceneModel& scene, const BakeOptions& options, const 
             scene.metersPerUnit));
 }
 
-/// Where some have tables and others have none, a bake goes on with these: their paths.
-std::optional<std::vector<std::string>> goesOn(const SceneModel& scene, const BakeArguments& arguments,
-                                               const Console& console) {
+/// Where some pairs and skins have tables that fit already: the paths of the others, which the bake goes on
+/// with.
+std::optional<std::vector<std::string>> missingOnly(const SceneModel& scene, const BakeArguments& arguments,
+                                                    const Console& console) {
     if (arguments.again || !arguments.request.pairs.empty()) return std::nullopt;
     BakeRequest request = arguments.request;
     request.onlyMissing = true;
-    std::vector<std::string> missing;
-    const auto look = [&](const auto& item) {
-        if (toBake(scene, item, request)) missing.push_back(item.path);
-    };
-    for (const Pair& pair : scene.pairs) look(pair);
-    for (const SkinModel& skin : scene.skins) look(skin);
+    const std::vector<std::string> missing = pathsToBake(scene, request);
     const std::size_t all = scene.pairs.size() + scene.skins.size(), there = all - missing.size();
     // Of what is all baked only what is too coarse is baked again by --finer.
     if (there == 0 || (missing.empty() && !arguments.finer)) return std::nullopt;
@@ -84,13 +80,12 @@ std::optional<std::vector<std::string>> goesOn(const SceneModel& scene, const Ba
     return missing;
 }
 
-/// What is given and does nothing with the other settings of all that is to be baked is a mistake.
-void refuseIdle(const SceneModel& scene, const BakeRequest& request) {
+/// Throws for options that have no effect with the other settings of any pair or skin that is to be baked.
+void refuseUnused(const SceneModel& scene, const BakeRequest& request) {
     const auto serves = [&](const auto& items, const auto& used) {
         return std::ranges::any_of(items, [&](const auto& item) {
-            const bool asked =
-                request.pairs.empty() || std::ranges::find(request.pairs, item.path) != request.pairs.end();
-            return asked && used(optionsFor(item.settings, request.given, scene.metersPerUnit));
+            return isWanted(request, item.path) &&
+                   used(optionsFor(item.settings, request.given, scene.metersPerUnit));
         });
     };
     const auto growth = [](const BakeOptions& o) { return o.spheres == SphereMethod::Growth; };
@@ -104,12 +99,14 @@ void refuseIdle(const SceneModel& scene, const BakeRequest& request) {
                                    "does something with --search sampled or --reduce minimal alone");
 }
 
-/// Of several things that bake() refuses it throws the first.
+void printError(const std::string& file, const InputError& error) {
+    fmt::print(stderr, "tss: {} (<{}>): {}\n", file, error.where.path, error.message);
+}
+
+/// Prints all but the first of the things that bake() refuses; the first is what it throws.
 void tellOtherRefusals(const SceneModel& scene, const BakeArguments& arguments) {
     const std::vector<InputError> refused = refusedByBake(scene, arguments.request);
-    for (std::size_t k = 1; k < refused.size(); ++k)
-        fmt::print(stderr, "tss: {} (<{}>): {}\n", arguments.input, refused[k].where.path,
-                   refused[k].message);
+    for (std::size_t k = 1; k < refused.size(); ++k) printError(arguments.input, refused[k]);
 }
 
 /// Says why, what is kept, and how to go on.
@@ -121,7 +118,7 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
     Json failures = Json::array();
     for (const InputError& error : parts.failures()) {
         failures.push_back({{"path", error.where.path}, {"message", error.message}});
-        fmt::print(stderr, "tss: {} (<{}>): {}\n", arguments.input, error.where.path, error.message);
+        printError(arguments.input, error);
     }
     console.print({{"complete", false},
                    {"output", written},
@@ -137,7 +134,8 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    shellWord(written), shellWord(arguments.output));
 }
 
-/// The meshes overlap at most poses; or at rest, or as good as that, and at many others too.
+/// Whether a joint has little room to move: the meshes touch at most poses, or at rest and at more than a
+/// tenth of the others.
 bool hasNoRoom(const Json& pair) {
     const Json early = pair.value("earlyContact", Json());
     if (early.is_null()) return false;
@@ -153,8 +151,7 @@ std::vector<std::string> bakeFiner(SceneModel& scene, const BakeRequest& request
     std::vector<std::string> again;
     for (const Pair& pair : scene.pairs) {
         if (!parts.complete()) break;
-        const auto& asked = request.pairs;
-        if (!asked.empty() && std::ranges::find(asked, pair.path) == asked.end()) continue;
+        if (!isWanted(request, pair.path)) continue;
         const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
         if (!early || !early->coarse() || early->tolerance <= 0) continue;
         console.say(fmt::format("{}: contact reported at {:.0f} % of the poses where nothing touches: again, "
@@ -172,7 +169,7 @@ std::vector<std::string> bakeFiner(SceneModel& scene, const BakeRequest& request
     return again;
 }
 
-/// Of a summary those pairs and skins alone.
+/// A summary with only the pairs and skins of these paths.
 Json only(Json summary, const std::vector<std::string>& paths) {
     for (const char* kind : {"pairs", "skins"}) {
         Json kept = Json::array();
@@ -192,14 +189,14 @@ void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.pairsOnly && !(arguments.request.given.empty() && arguments.request.pairs.empty()))
         throw CLI::ValidationError("--pairs-only", "bakes nothing: settings and --pair do nothing beside it");
     SceneModel scene = loadScene(arguments.input);
-    // What is wrong with them is no fault of the file.
+    // Outside of inFile(): what is wrong with the options is no fault of the file.
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
-    refuseIdle(scene, arguments.request);
+    refuseUnused(scene, arguments.request);
     KeptParts parts(scene, arguments.input, arguments.output, readBakeTimes(arguments.input), console);
     std::optional<std::vector<std::string>> now; // what is baked, where it is not all
     if (!arguments.pairsOnly) {
-        now = goesOn(scene, arguments, console);
+        now = missingOnly(scene, arguments, console);
         arguments.request.onlyMissing = now.has_value();
         tellOtherRefusals(scene, arguments);
         inFile(arguments.input, [&] {

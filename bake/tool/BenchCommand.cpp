@@ -41,11 +41,10 @@ void runBench(const BenchArguments& arguments, const Console& console) {
     if (!pair.table) throw InputError(Where{arguments.scene, "", pair.path}, "has no table to be timed");
     const PreparedTable table(*pair.table, options);
     const BenchResult result = benchQueries(table, pair.table->motion, arguments.queries, with);
-    const char* form = table.form() == KernelForm::Fold ? "fold" : "direct";
-    const char* precision = table.precision() == KernelPrecision::Float ? "float" : "double";
     console.answer(fmt::format("{}: {}, {} bytes; {} {} of {} features, {}{}", pair.path,
-                               counted(table.testCount(), "test"), table.bytes(), precision, form,
-                               table.kernels().featureCount(), name(table.target()), cellText(table)));
+                               counted(table.testCount(), "test"), table.bytes(), name(table.precision()),
+                               name(table.form()), table.kernels().featureCount(), name(table.target()),
+                               cellText(table)));
     console.answer(fmt::format("{} queries ({}): {:.2f} ns each, features of a pose {:.2f} ns{}; {} hits",
                                arguments.queries, arguments.with, result.nanoseconds,
                                result.featureNanoseconds, with == BenchWith::Pose ? "" : " more",
@@ -57,8 +56,8 @@ void runBench(const BenchArguments& arguments, const Console& console) {
                    {"tests", table.testCount()},
                    {"bytes", table.bytes()},
                    {"kernel", name(table.target())},
-                   {"form", form},
-                   {"precision", precision},
+                   {"form", name(table.form())},
+                   {"precision", name(table.precision())},
                    {"features", table.kernels().featureCount()},
                    {"cells", table.kernels().cells().empty() ? 0 : table.kernels().cells().rowCount() - 1},
                    {"looked", table.kernels().cells().looked()},

@@ -26,7 +26,10 @@ struct Console {
     Progress progress() const;
 };
 
-/// Whether a file has the name of a mesh's.
+/// The extension of a file name as it is written, ".tss"; empty: it has none.
+std::string fileExtension(const std::string& file);
+
+/// Whether a file name has the extension of a mesh file.
 bool isMeshName(const std::string& file);
 
 /// Throws InputError where the output would replace a file that is read.

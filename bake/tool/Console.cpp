@@ -42,6 +42,10 @@ Progress Console::progress() const {
     };
 }
 
+std::string fileExtension(const std::string& file) {
+    return std::filesystem::path(file).extension().string();
+}
+
 bool isMeshName(const std::string& file) {
     const auto meshes = {".obj", ".stl", ".ply", ".off", ".dae", ".fbx", ".gltf", ".glb", ".3ds"};
     return std::ranges::find(meshes, extensionOf(file)) != meshes.end();
@@ -63,7 +67,7 @@ void expectScene(const std::string& output) {
 }
 
 void expectText(const std::string& output) {
-    const std::string extension = std::filesystem::path(output).extension().string();
+    const std::string extension = fileExtension(output);
     if (isMeshName(output) || extension == ".tss" || extension == ".usda" || extension == ".urdf" ||
         extension == ".xml")
         throw InputError(Where{output},

@@ -34,10 +34,6 @@ struct ConvertArguments {
     std::vector<std::string> given; ///< options that stand on the command line
 };
 
-std::string extension(const std::string& file) {
-    return std::filesystem::path(file).extension().string();
-}
-
 /// A scene of one body from a mesh file; of a glTF, a body a node.
 Layer meshLayer(const ConvertArguments& arguments, std::vector<std::string>& notes) {
     SceneModel scene;
@@ -112,7 +108,7 @@ SpheresWritten curoboSpheresOf(const SceneModel& scene, const SphereOptions& opt
 
 /// Spheres of each body for cuRobo.
 void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
-    if (extension(arguments.input) != ".tss")
+    if (fileExtension(arguments.input) != ".tss")
         throw InputError(Where{arguments.input}, "expected a scene, whose bodies get spheres");
     const SceneModel scene = loadScene(arguments.input);
     SphereOptions options;
@@ -133,12 +129,12 @@ void writeSpheresOf(const ConvertArguments& arguments, const Console& console) {
 
 /// What a planner or a simulator need not test, from the proofs of a baked scene.
 void writePairsOf(const ConvertArguments& arguments, const Console& console) {
-    if (extension(arguments.input) != ".tss")
+    if (fileExtension(arguments.input) != ".tss")
         throw InputError(Where{arguments.input}, "expected a baked scene, whose proofs are written");
     const SceneModel scene = loadScene(arguments.input);
     const auto evidence = inFile(arguments.input, [&] { return evidenceOf(scene); });
     const std::string source = std::filesystem::path(arguments.input).filename().string();
-    const PairsWritten written = extension(arguments.output) == ".srdf"
+    const PairsWritten written = fileExtension(arguments.output) == ".srdf"
                                      ? srdfOf(scene, evidence, source)
                                      : mjcfExcludesOf(scene, evidence, source);
     writeFileAtomically(arguments.output, written.text);
@@ -163,7 +159,7 @@ Layer inputLayer(const ConvertArguments& arguments, std::vector<std::string>& no
         notes = made.notes;
         return layerOf(made.scene);
     }
-    if (extension(arguments.input) != ".tss") return meshLayer(arguments, notes);
+    if (fileExtension(arguments.input) != ".tss") return meshLayer(arguments, notes);
     if (!arguments.filteredPairs) return readLayer(arguments.input);
     const SceneModel scene = loadScene(arguments.input);
     return inFile(arguments.input, [&] { return withFilteredPairs(scene, evidenceOf(scene)); });
@@ -171,7 +167,7 @@ Layer inputLayer(const ConvertArguments& arguments, std::vector<std::string>& no
 
 /// An option that does nothing for these files is a mistake.
 void refuseIdleOptions(const ConvertArguments& arguments) {
-    const std::string from = extension(arguments.input), to = extension(arguments.output);
+    const std::string from = fileExtension(arguments.input), to = fileExtension(arguments.output);
     const bool robot = from != ".tss" && !isUsd(arguments.input) && isRobot(arguments.input),
                mesh = from != ".tss" && !isUsd(arguments.input) && !robot,
                spheres = to == ".yml" || to == ".yaml";
@@ -195,20 +191,20 @@ void convert(const ConvertArguments& arguments, const Console& console) {
     refuseIdleOptions(arguments);
     refuseOverwriting(arguments.output, {arguments.input});
     expectWritable(arguments.output);
-    if (extension(arguments.output) == ".yml" || extension(arguments.output) == ".yaml")
+    if (fileExtension(arguments.output) == ".yml" || fileExtension(arguments.output) == ".yaml")
         return writeSpheresOf(arguments, console);
-    if (extension(arguments.output) == ".srdf" || extension(arguments.output) == ".xml")
+    if (fileExtension(arguments.output) == ".srdf" || fileExtension(arguments.output) == ".xml")
         return writePairsOf(arguments, console);
     std::vector<std::string> notes;
     const Layer layer = inputLayer(arguments, notes);
     for (const std::string& note : notes) console.say("note: " + note);
     const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
     Json result = {{"input", arguments.input}, {"output", arguments.output}, {"notes", notes}};
-    if (extension(arguments.output) == ".usda")
+    if (fileExtension(arguments.output) == ".usda")
         writeFileAtomically(arguments.output, writeUsda(layer));
-    else if (extension(arguments.output) == ".tss" && arguments.buffers)
+    else if (fileExtension(arguments.output) == ".tss" && arguments.buffers)
         result["buffer"] = saveWithBuffer(layer, arguments.output, encoding);
-    else if (extension(arguments.output) == ".tss")
+    else if (fileExtension(arguments.output) == ".tss")
         saveLayer(layer, arguments.output, encoding);
     else
         throw InputError(Where{arguments.output},

@@ -35,7 +35,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
     return cells;
 }
 
-/// What reads as no number though it stands for one: in a first line, that is a bad value and no header.
+/// Whether a cell stands for a number that is not finite: in a first line that is a bad value, not a name.
 bool isNotFinite(const std::string& cell) {
     const std::string word = lowerCase(cell);
     return word == "nan" || word == "inf" || word == "infinity";
@@ -103,11 +103,11 @@ std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const D
     return order;
 }
 
-/// Limits and poses are printed with 6 digits: what they round to beyond a limit stands for the limit.
+/// A limit for values beyond it by rounding: limits and poses are printed with 6 digits.
 double withoutRounding(const Dof& dof, double value) {
-    const double hair = limitRounding(dof, 5e-6);
-    if (value < dof.lower && value >= dof.lower - hair) return dof.lower;
-    if (value > dof.upper && value <= dof.upper + hair) return dof.upper;
+    const double slack = limitRounding(dof, 5e-6);
+    if (value < dof.lower && value >= dof.lower - slack) return dof.lower;
+    if (value > dof.upper && value <= dof.upper + slack) return dof.upper;
     return value;
 }
 

@@ -16,11 +16,11 @@ struct CsvTable {
 /// skipped. Throws InputError with file, line and column.
 CsvTable readCsv(const std::string& file);
 
-/// Which of several things, each with its names, a word names: as it is written, or else regardless of case
-/// where that is one thing alone. names.size(): none.
+/// The index of the thing that a word is a name of, each thing having several names: first with the same
+/// case, else regardless of case where only one thing matches. names.size(): none.
 std::size_t columnNamed(const std::vector<std::vector<std::string>>& names, const std::string& word);
 
-/// Whether a column counts steps or time codes, or says seconds.
+/// Whether a column is called `step` (steps or time codes), or `time` (seconds).
 bool isStep(const std::string& word);
 bool isTime(const std::string& word);
 
@@ -36,9 +36,9 @@ DofColumns dofColumns(const SceneModel& scene, const Pair& pair); ///< as in pai
 /// The rows of a file with a column a DOF, in the DOFs' order and their own units; `remark`: what is to be
 /// said of it, or empty. The first line may name the columns in any order; where it has none of the names
 /// they are taken in the DOFs' order. Throws InputError where some of the names are those of DOFs and others
-/// are none, or one comes twice. A value beyond a limit by no more than 6 printed digits round is the limit.
-/// stepped: a first column `step` or `time` is passed over, and a DOF whose column a first line leaves out
-/// stays where it rests; else all are asked for.
+/// are not, or one comes twice. A value beyond a limit by no more than rounding to 6 digits becomes the
+/// limit. stepped: a first column `step` or `time` is ignored, and a DOF without a column stays at rest; else
+/// each DOF needs a column.
 struct DofRows {
     std::vector<std::vector<double>> rows;
     std::string remark;

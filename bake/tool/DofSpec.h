@@ -6,7 +6,7 @@
 
 namespace tss::tool {
 
-/// A DOF from its text on the command line (DESIGN "tss make"):
+/// A DOF from its text on the command line (docs/TSS.md, tss make):
 ///   rot:ORIGIN:AXIS:LO:HI     degrees; the axis is made a unit vector
 ///   trans:AXIS:LO:HI          multiples of the axis; a limit with a unit is a length along it
 ///   path:FILE.csv:LO:HI       rows value,tx,ty,tz[,rx,ry,rz], rotation vector in degrees

@@ -16,20 +16,13 @@ namespace tss::tool {
 
 namespace {
 
-std::string roundedText(double length, double metersPerUnit) {
-    const double power = std::pow(10.0, std::floor(std::log10(length)));
-    std::string text = lengthText(std::floor(length / power) * power, metersPerUnit);
-    std::erase(text, ' ');
-    return text;
-}
-
-/// As an option of `tss make` has it; what is nothing beside `size` is 0.
+/// "x,y,z" as options of `tss make` take it; coordinates that are negligible beside `size` are written as 0.
 std::string vectorText(const Vec3& v, double size) {
     const auto coordinate = [&](double x) { return std::abs(x) < 1e-6 * size ? 0.0 : x; };
     return fmt::format("{:.7g},{:.7g},{:.7g}", coordinate(v.x()), coordinate(v.y()), coordinate(v.z()));
 }
 
-/// As --dof and --joint have it.
+/// A DOF as --dof and --joint take it.
 std::string dofText(const Dof& dof, double size) {
     const std::string limits = fmt::format("{:.7g}:{:.7g}", toUser(dof, dof.lower), toUser(dof, dof.upper));
     if (dof.kind == DofKind::Translation)
@@ -37,13 +30,13 @@ std::string dofText(const Dof& dof, double size) {
     return fmt::format("rot:{}:{}:{}", vectorText(dof.origin, size), vectorText(dof.axis, 1), limits);
 }
 
-/// " of" and its name, over a chain that of its joint as well; nothing where it has none.
+/// " of NAME", the name of a DOF, which in a chain begins with that of its joint; empty where it has none.
 std::string ofDof(const Dof& dof) {
     const std::string name = dof.name.ends_with(':') ? dof.name.substr(0, dof.name.size() - 1) : dof.name;
     return name.empty() ? "" : " of " + name;
 }
 
-/// How the scene was made, as far as it shows: which options of `tss make` move B.
+/// How the scene was made, as far as that can be told, which decides what options of `tss make` move B.
 enum class Form { TwoMeshes, Joint, None };
 
 Form formOf(const SceneModel& scene, const Pair& pair) {
@@ -64,7 +57,7 @@ public:
     Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
         : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)),
           a_(originalName(scene.bodies[pair.bodyA])), b_(originalName(scene.bodies[pair.bodyB])) {
-        // What `tss make` has made: B has the axes of A, moved by the offset.
+        // In scenes that `tss make` made, B has the axes of A and is moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
         if (form_ != Form::None) already_ = atZero.translation();
@@ -163,7 +156,8 @@ private:
         if (move.stops > 0) text += fmt::format("; stopped by contact at {}, as before", move.stops);
         std::string tolerance;
         // Spheres of both bodies stick out: together they are to leave some of the room.
-        if (move.free > 0 && 0.3 * move.least < size_ / 500) tolerance = roundedText(0.3 * move.least, unit_);
+        if (move.free > 0 && 0.3 * move.least < size_ / 500)
+            tolerance = lengthOption(roundedDownToDigit(0.3 * move.least), unit_);
         if (!tolerance.empty()) text += fmt::format("; then bake with --tolerance {}", tolerance);
         console_.say(text);
         return {{"option", words},

@@ -9,13 +9,13 @@ namespace tss::tool {
 
 namespace {
 
-/// Seconds of baking that may be lost where the program is killed, or the machine goes off.
-constexpr double mayBeLost = 60;
+/// Seconds between two writes of the incomplete file: what may be lost where the program is killed.
+constexpr double keepEvery = 60;
 
-volatile std::sig_atomic_t came = 0;
+volatile std::sig_atomic_t received = 0;
 
-void hear(int signal) {
-    came = signal;
+void receive(int signal) {
+    received = signal;
 }
 
 void install(void (*handler)(int)) {
@@ -39,7 +39,8 @@ bool hasTable(const SceneModel& scene) {
     return false;
 }
 
-/// A name that no file of an earlier bake has, which may hold more than this one will.
+/// A name of an incomplete file that does not exist yet: one of an earlier bake may hold more than this one
+/// will.
 std::string freeName(const std::string& output) {
     std::string name = incompleteName(output);
     std::error_code none;
@@ -49,18 +50,19 @@ std::string freeName(const std::string& output) {
 
 } // namespace
 
-/// While it lives, SIGINT and SIGTERM are heard instead of ending the program; the second one ends it.
+/// While an object of this exists, the first SIGINT or SIGTERM is noted instead of ending the program; the
+/// second one ends it.
 class Interrupt {
 public:
     Interrupt() {
-        came = 0;
-        install(hear);
+        received = 0;
+        install(receive);
     }
     ~Interrupt() { install(SIG_DFL); }
     Interrupt(const Interrupt&) = delete;
 
     /// The signal that came; 0: none.
-    static int signal() { return came; }
+    static int signal() { return received; }
 };
 
 std::string incompleteName(const std::string& output, int number) {
@@ -88,10 +90,8 @@ void KeptParts::run(BakeRequest request) {
     bake(scene_, request, console_.progress());
     signal_ = Interrupt::signal();
     request.onlyMissing = true;
-    for (const Pair& pair : scene_.pairs)
-        if (toBake(scene_, pair, request)) missing_.push_back(pair.path);
-    for (const SkinModel& skin : scene_.skins)
-        if (toBake(scene_, skin, request)) missing_.push_back(skin.path);
+    const std::vector<std::string> missing = pathsToBake(scene_, request);
+    missing_.insert(missing_.end(), missing.begin(), missing.end());
     if (missing_.empty()) signal_ = 0; // it came too late to stop anything
 }
 
@@ -101,7 +101,7 @@ void KeptParts::done(const PairReport& report) {
         console_.say(report.path + ": " + note);
         notes_[report.path].push_back(note);
     }
-    if (sinceKept_.seconds() < mayBeLost) return;
+    if (sinceKept_.seconds() < keepEvery) return;
     sinceKept_.restart();
     try {
         writeTo(incomplete_);

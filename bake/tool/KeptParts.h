@@ -15,9 +15,9 @@ class Interrupt;
 /// leaves, so that a file of the name asked for is always whole.
 std::string incompleteName(const std::string& output, int number = 1);
 
-/// Bakes a scene for a file. What is done is kept in the incomplete file, now and then while it goes on, and
-/// where it cannot go on; once all is done that file is gone. One that an earlier bake has left stays, unless
-/// it is what this one goes on with. Signals are heard until all is written.
+/// Bakes a scene for a file. What is done is written to the incomplete file from time to time and where the
+/// bake cannot go on; once all is done that file is removed. One that an earlier bake has left stays, unless
+/// it is the input of this one. SIGINT and SIGTERM end the bake and not the program until all is written.
 class KeptParts {
 public:
     KeptParts(SceneModel& scene, const std::string& input, std::string output, BakeTimes times,

@@ -13,30 +13,29 @@ namespace tss::tool {
 namespace {
 
 struct ReportArguments {
-    std::string scene, output, motion;
-    std::vector<std::string> pairs;
+    std::string scene, output;
     reporting::ReportOptions options;
 };
 
 /// The steps of a motion for the one pair it is for.
 std::vector<std::vector<double>> readMotion(const SceneModel& scene, const ReportArguments& arguments) {
+    const std::vector<std::string>& paths = arguments.options.pairs;
     const Pair* pair = nullptr;
     for (const Pair& candidate : scene.pairs)
-        if (arguments.pairs.empty() ||
-            (arguments.pairs.size() == 1 && arguments.pairs[0] == candidate.path)) {
+        if (paths.empty() || (paths.size() == 1 && paths[0] == candidate.path)) {
             if (pair)
                 throw InputError(arguments.scene +
                                  ": expected --pair with --motion, the scene has several pairs");
             pair = &candidate;
         }
     if (!pair) throw InputError(arguments.scene + ": expected a pair of rigid bodies for --motion");
-    const auto rows = readDofRows(arguments.motion, dofColumns(scene, *pair), true).rows;
+    const auto rows = readDofRows(arguments.options.motionFile, dofColumns(scene, *pair), true).rows;
     const Motion motion = pairMotion(scene, *pair);
     for (std::size_t row = 0; row < rows.size(); ++row)
         if (beyondLimits(motion, rows[row]))
-            throw InputError(
-                fmt::format("{}: row {} is outside the limits ({}), where no table says anything",
-                            arguments.motion, row + 1, describeDofs(motion, scene.metersPerUnit)));
+            throw InputError(fmt::format(
+                "{}: row {} is outside the limits ({}), where no table says anything",
+                arguments.options.motionFile, row + 1, describeDofs(motion, scene.metersPerUnit)));
     return rows;
 }
 
@@ -64,9 +63,7 @@ Json summary(const reporting::Report& report, const std::string& folder) {
 
 void runReport(ReportArguments& arguments, const Console& console) {
     const SceneModel scene = loadScene(arguments.scene);
-    arguments.options.pairs = arguments.pairs;
-    arguments.options.motionFile = arguments.motion;
-    if (!arguments.motion.empty()) arguments.options.motion = readMotion(scene, arguments);
+    if (!arguments.options.motionFile.empty()) arguments.options.motion = readMotion(scene, arguments);
     const reporting::Report report = reporting::makeReport(scene, arguments.scene, arguments.output,
                                                            arguments.options, console.progress());
     std::size_t methods = 0;
@@ -75,8 +72,7 @@ void runReport(ReportArguments& arguments, const Console& console) {
     if (!report.plotProblem.empty()) console.say(report.plotProblem);
     console.say(fmt::format("{} and {}, {} in {:.0f} s, wrote {}/index.html and report.md",
                             counted(report.pairs.size(), "pair"), counted(report.skins.size(), "skin"),
-                            counted(static_cast<std::size_t>(methods), "row"), report.seconds,
-                            arguments.output));
+                            counted(methods, "row"), report.seconds, arguments.output));
     console.print(summary(report, arguments.output));
 }
 
@@ -92,10 +88,11 @@ void addReport(CLI::App& app, Console& console) {
                      "folder for index.html, report.md, report.json, report.csv and plots")
         ->required();
     command
-        ->add_option("--pair", arguments->pairs, "prim path of a pair or skin (repeat; all when not given)")
+        ->add_option("--pair", arguments->options.pairs,
+                     "prim path of a pair or skin (repeat; all when not given)")
         ->allow_extra_args(false);
     command->add_option(
-        "--motion", arguments->motion,
+        "--motion", arguments->options.motionFile,
         "CSV, one column a DOF (degrees, or the DOF's own unit): the steps to count tests along");
     command->add_option("--methods", arguments->options.methods, "parts of the names of the methods wanted")
         ->delimiter(',')

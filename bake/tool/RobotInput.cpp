@@ -142,12 +142,12 @@ std::array<CLI::Option*, 2> addRobotFileOptions(CLI::App& command, RobotFile& fi
 }
 
 bool isUsd(const std::string& file) {
-    const std::string extension = std::filesystem::path(file).extension().string();
+    const std::string extension = fileExtension(file);
     return extension == ".usda" || extension == ".usd" || extension == ".usdc" || extension == ".usdz";
 }
 
 bool isRobot(const std::string& file) {
-    const std::string extension = std::filesystem::path(file).extension().string();
+    const std::string extension = fileExtension(file);
     if (extension == ".urdf" || extension == ".mjcf" || extension == ".xacro") return true;
     if (extension != ".xml") return false;
     const std::string root = rootName(readWholeFile(file));

@@ -106,13 +106,6 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
                             {"shareThen", early->tolerance > 0 ? Json(early->shareThen) : Json()}};
 }
 
-/// As --tolerance takes it.
-std::string lengthOption(double length, double metersPerUnit) {
-    std::string text = lengthText(length, metersPerUnit);
-    std::erase(text, ' ');
-    return text;
-}
-
 std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
     const double atRest = pair["clearanceAtRest"].get<double>();
     const Json& early = pair["earlyContact"];
@@ -121,7 +114,7 @@ std::string describeEarlyContact(const Json& pair, double metersPerUnit) {
         atRest > 0 ? lengthText(atRest, metersPerUnit) + " apart" : "touch or overlap",
         100 * early["share"].get<double>(), early["freePoses"].dump(),
         pair.value("restRegion", Json()).is_null() ? "they do not touch" : "nothing else touches");
-    // No advice that was followed.
+    // Not advised where the pair is baked that way already.
     const bool ignored = pair.value("ignoresRest", false);
     const char* excepted = ignored ? ""
                                    : "; where the bodies overlap on purpose, as in\n               a socket, "
@@ -167,8 +160,8 @@ std::string squareText(double area, double metersPerUnit) {
                                 : fmt::format("{:.3g} m2", squareMetres);
 }
 
-/// What the bounds say nothing about, in the same line as they.
-std::string butForRegion(const Json& item, double metersPerUnit) {
+/// The exempt region, about which the bounds say nothing, as the end of their line.
+std::string exemptText(const Json& item, double metersPerUnit) {
     const Json region = item.value("restRegion", Json());
     if (region.is_null()) return "";
     const auto part = [&](const char* area, const char* share) {
@@ -183,8 +176,8 @@ std::string butForRegion(const Json& item, double metersPerUnit) {
                                      lengthText(region["depth"].get<double>(), metersPerUnit));
 }
 
-/// Where so much of a body is excepted that the bounds say little of it.
-std::string warnOfRegion(const Json& item) {
+/// A warning where more than half of a body's surface is exempt.
+std::string exemptWarning(const Json& item) {
     const Json region = item.value("restRegion", Json());
     if (region.is_null()) return "";
     std::string text;
@@ -277,7 +270,7 @@ std::string describeEarly(const Json& item, double metersPerUnit) {
     if (solids.is_null()) return length(surfaces, metersPerUnit);
     const std::string text = length(solids, metersPerUnit);
     if (surfaces.is_null()) return text + " unless one body stands inside the other";
-    // Bounds of what is known to stand inside nowhere are as small.
+    // Where it is known that no part stands inside, the two bounds are nearly the same.
     return surfaces.get<double>() <= 2 * solids.get<double>()
                ? length(surfaces, metersPerUnit)
                : fmt::format("{}, {} where one body stands inside the other", text,
@@ -327,7 +320,7 @@ std::string describeTable(const Json& item, double metersPerUnit) {
                             hasNoSpheres(item)              ? "of no spheres"
                             : item["certified"].get<bool>() ? "certified for every pose"
                                                             : "sampled poses only",
-                            butForRegion(item, metersPerUnit));
+                            exemptText(item, metersPerUnit));
     if (item.contains("earlyContact")) text += describeEarlyContact(item, metersPerUnit);
     return text;
 }
@@ -351,11 +344,11 @@ std::string describeItem(const Json& item, double metersPerUnit) {
     if (item.value("neverCollides", false)) {
         text += fmt::format("  never collide: the surfaces stay more than {} apart over the whole motion{}; "
                             "no table, no callback\n",
-                            length(item["clearance"], metersPerUnit), butForRegion(item, metersPerUnit));
+                            length(item["clearance"], metersPerUnit), exemptText(item, metersPerUnit));
     } else {
         text += describeTable(item, metersPerUnit);
     }
-    text += warnOfRegion(item);
+    text += exemptWarning(item);
     if (item.contains("kernel")) text += kernelText(item["kernel"], metersPerUnit);
     text +=
         fmt::format("  made by      {}, {} bytes", item["method"].get<std::string>(), item["bytes"].dump());

@@ -7,7 +7,7 @@
 
 namespace tss::tool {
 
-/// What scripts read of a pair or a skin (DESIGN "the command line"). Unknown figures are null.
+/// The data of a pair or a skin for scripts (docs/TSS.md, --json). Unknown figures are null.
 Json summary(const SceneModel& scene, const Pair& pair);
 Json summary(const SceneModel& scene, const SkinModel& skin);
 
@@ -17,9 +17,9 @@ Json summary(const SceneModel& scene);
 /// The same for people, one block a pair.
 std::string describe(const Json& summaryOfScene);
 
-/// Seconds of each bake by prim path. They belong to a run and not to the scene, whose bytes are the same on
-/// every machine; so they stand in an extended attribute of the file (user.tss.seconds) and get lost where
-/// that is not kept.
+/// Seconds of each bake by prim path. They differ from run to run, while the bytes of a scene file are the
+/// same on every machine; so they are stored in an extended attribute of the file (user.tss.seconds), and
+/// lost where that is not kept.
 using BakeTimes = std::map<std::string, double>;
 
 void writeBakeTimes(const std::string& file, const BakeTimes& times);

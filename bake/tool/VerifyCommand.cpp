@@ -79,14 +79,14 @@ public:
     explicit Budget(double seconds) : seconds_(seconds) {}
 
     double spent() const { return watch_.seconds(); }
-    /// Until it is spent; to be asked no longer than this is there.
+    /// A Progress that asks to stop once the budget is spent. Must not be used after this object is gone.
     Progress within(Progress told) {
         return [this, told = std::move(told)](std::string_view step, double done) {
             stopped_ = stopped_ || (seconds_ > 0 && spent() >= seconds_);
             return report(told, step, done) && !stopped_;
         };
     }
-    bool stopped() const { return stopped_; } ///< somebody asked after it was spent
+    bool stopped() const { return stopped_; } ///< whether that Progress has asked to stop
     std::string ended() const { return fmt::format("not decided within {:.6g} s", seconds_); }
 
 private:
@@ -120,7 +120,7 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pai
     const Progress progress = budget.within(console.progress());
     std::string why = inFile(file, [&] { return verified(scene, pair, json, progress); });
     const double seconds = budget.spent();
-    // What a pose has refuted is decided, however late.
+    // A counterexample decides, even one found after the budget was spent.
     const bool decided = why.empty() || !budget.stopped() || json.contains("pose");
     if (!decided) why = budget.ended();
     json["holds"] = why.empty();
