@@ -1,14 +1,12 @@
 #include "bake/fill/ContactZoneFit.h"
 
 #include "bake/base/Error.h"
+#include "bake/fill/FittedBody.h"
 #include "bake/fill/HollowBodies.h"
 #include "bake/fill/NestedBodies.h"
-#include "bake/geometry/MeshAudit.h"
 #include "bake/search/NearSurface.h"
-#include "bake/spheres/SphereMethods.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -22,79 +20,6 @@ double area(std::span<const Patch> patches) {
     for (const Patch& patch : patches) sum += patch.area();
     return sum;
 }
-
-/// One body while the levels go by.
-struct Body {
-    Body(const TriangleMesh& mesh, bool hollow)
-        : solid(cleaned(mesh), hollow ? Interior::Hollow : Interior::Filled), surface(solid.mesh()),
-          magnitude(tss::magnitude(solid.mesh())) {}
-
-    Solid solid;
-    MeshQuery surface;       ///< without closing fans: contact is of the mesh itself
-    double magnitude;        ///< largest coordinate, scene units
-    std::vector<Patch> zone; ///< surface within reach, without the region that overlaps at rest
-    RestSide rest;
-
-    /// The spheres of a level; what fit() falls back on when a finer level takes too many.
-    struct Spheres {
-        MedialSet fitted;      ///< to the zone, on this level
-        double protrusion = 0; ///< of all spheres of the level, scene units
-        SphereSet coarse;      ///< inscribed balls of the levels before
-    };
-    Spheres spheres;
-
-    void begin(RestSide side) {
-        rest = std::move(side);
-        spheres.protrusion = rest.protrusion;
-        for (const Patch& patch : rest.patches)
-            if (!patch.region) zone.push_back(patch);
-    }
-    void fit(double tolerance, MedialOptions medial, const Progress& progress) {
-        const double own = protrusionFor(tolerance, magnitude);
-        medial.neighbour = rest.neighbour;
-        spheres.fitted = medialSpheres(solid, zone, own, medial, progress);
-        spheres.protrusion = std::max(own, rest.protrusion);
-    }
-    std::size_t count() const { return spheres.fitted.spheres.size() + rest.region.spheres.size(); }
-    LevelSpheres level() const {
-        const MedialSet& fitted = spheres.fitted;
-        LevelSpheres level{fitted.spheres, fitted.inner, std::vector<char>(fitted.spheres.size(), 0)};
-        const MedialSet& region = rest.region;
-        level.spheres.insert(level.spheres.end(), region.spheres.begin(), region.spheres.end());
-        level.inner.insert(level.inner.end(), region.inner.begin(), region.inner.end());
-        level.region.resize(level.spheres.size(), 1);
-        return level;
-    }
-    SphereSet allSpheres() const {
-        SphereSet all = level().spheres;
-        all.insert(all.end(), spheres.coarse.begin(), spheres.coarse.end());
-        return all;
-    }
-    /// Keeps the inscribed balls of the level, which show contact where finer spheres are not looked for.
-    void keepInscribed() {
-        const SphereSet inner = inscribed(spheres.fitted);
-        spheres.coarse.insert(spheres.coarse.end(), inner.begin(), inner.end());
-    }
-    ContactZoneBody result(const ContactZoneOptions& options) const {
-        ContactZoneBody body;
-        const LevelSpheres finest = level();
-        body.fit.spheres = options.conservative ? finest.spheres : inscribed({finest.spheres, finest.inner});
-        body.fit.protrusion = options.conservative ? spheres.protrusion : 0;
-        body.fit.coverage = options.conservative ? 0 : spheres.protrusion;
-        body.fit.note = solid.assumptions();
-        body.fit.hollow = solid.hollow();
-        body.fine = body.fit.spheres.size();
-        body.neighbour = rest.neighbour;
-        body.zone = zone;
-        for (const Patch& patch : rest.patches)
-            if (patch.region) body.zone.push_back(patch);
-        body.fit.spheres.insert(body.fit.spheres.end(), spheres.coarse.begin(), spheres.coarse.end());
-        if (rest.region.spheres.empty()) return body;
-        body.fit.region = finest.region;
-        body.fit.region.resize(body.fit.spheres.size(), 0);
-        return body;
-    }
-};
 
 /// The tolerances of the levels, coarse to fine, each half of the one before, from about 1/400 of the
 /// diagonal.
@@ -190,7 +115,7 @@ private:
 
     /// Leaves the inscribed balls alone.
     void finish(std::vector<Patch> zoneA, std::vector<Patch> zoneB) {
-        for (Body* body : {&a_, &b_}) {
+        for (FittedBody* body : {&a_, &b_}) {
             body->keepInscribed();
             body->spheres.fitted = {};
         }
@@ -199,7 +124,7 @@ private:
     }
 
     /// Why there are more spheres than were asked for.
-    void noteMore(ContactZoneBody& made, const Body& body) const {
+    void noteMore(ContactZoneBody& made, const FittedBody& body) const {
         const std::size_t region = body.rest.region.spheres.size(), asked = options_.maxSpheres;
         if (asked == 0 || made.fit.spheres.size() <= asked) return;
         const std::string add = made.fit.note.empty() ? "" : "; ";
@@ -217,7 +142,7 @@ private:
 
     /// How many spheres a body may take. The region that overlaps at rest takes the same spheres on every
     /// level; where these are more than half of the limit, the zone may take as many again.
-    std::size_t mostSpheres(const Body& body) const {
+    std::size_t mostSpheres(const FittedBody& body) const {
         return std::max(static_cast<std::size_t>(options_.maxSpheres), 2 * body.rest.region.spheres.size());
     }
 
@@ -225,7 +150,7 @@ private:
     /// infinity where far too many patches would be needed.
     double excess(double tolerance) {
         try {
-            for (Body* body : {&a_, &b_})
+            for (FittedBody* body : {&a_, &b_})
                 body->fit(tolerance, forTrial(options_.medial, mostSpheres(*body)), progress_);
         } catch (const RestTooClose& error) { // which no tolerance changes
             throw RestTooClose(
@@ -233,7 +158,9 @@ private:
         } catch (const TooFine&) {
             return std::numeric_limits<double>::infinity();
         }
-        const auto share = [&](const Body& body) { return double(body.count()) / double(mostSpheres(body)); };
+        const auto share = [&](const FittedBody& body) {
+            return double(body.count()) / double(mostSpheres(body));
+        };
         return std::max(share(a_), share(b_));
     }
 
@@ -264,7 +191,7 @@ private:
     /// Bisects between the level before (good) and one that took too many spheres (bad) for a finer tolerance
     /// that does not.
     void fitBetween(double good, double bad) {
-        const Body::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
+        const FittedBody::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
         const std::vector<ContactZoneLevel> levels = result_.levels;
         const auto refit = [&](double tolerance) {
             a_.spheres = beforeA;
@@ -281,14 +208,14 @@ private:
 
     /// False: it took too many spheres and the level before stands.
     bool fit(double tolerance) {
-        const Body::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
+        const FittedBody::Spheres beforeA = a_.spheres, beforeB = b_.spheres;
         const auto backToLast = [&] {
             a_.spheres = beforeA;
             b_.spheres = beforeB;
             return false;
         };
         if (!result_.levels.empty())
-            for (Body* body : {&a_, &b_}) body->keepInscribed();
+            for (FittedBody* body : {&a_, &b_}) body->keepInscribed();
         const auto fitBoth = [&](const MedialOptions& medial, const Progress& progress) {
             a_.fit(tolerance, medial, progress);
             b_.fit(tolerance, medial, progress);
@@ -309,7 +236,7 @@ private:
                 throw InputError(error.message);
             }
         }
-        for (const Body* body : {&a_, &b_})
+        for (const FittedBody* body : {&a_, &b_})
             if (options_.maxSpheres > 0 && !result_.levels.empty() &&
                 body->count() + body->spheres.coarse.size() > mostSpheres(*body))
                 return backToLast();
@@ -351,7 +278,7 @@ private:
         }
     }
 
-    Body a_, b_;
+    FittedBody a_, b_;
     const Motion& motion_;
     const ContactZoneOptions& options_;
     const Progress& progress_;
