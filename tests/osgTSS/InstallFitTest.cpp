@@ -66,6 +66,14 @@ TEST_CASE("a table is installed where the graph holds what it was made from") {
         wide.arms[1]->setMaxTranslate(osg::Vec3(20, 0, 0));
         CHECK(install(*wide.root, model).stale == 1);
     }
+    SECTION("wider limits of a slide that is as short as rounding is elsewhere") {
+        Yard shortOne, wide;
+        shortOne.arms[1]->setMaxTranslate(osg::Vec3(1e-5f, 0, 0));
+        wide.arms[1]->setMaxTranslate(osg::Vec3(1.8e-5f, 0, 0));
+        const tss::SceneModel narrow = shortOne.baked();
+        CHECK(install(*shortOne.root, narrow).stale == 0);
+        CHECK(install(*wide.root, narrow).stale == 1);
+    }
     SECTION("narrower ones are within what the table knows") {
         Yard narrow;
         narrow.arms[1]->setMaxTranslate(osg::Vec3(8, 0, 0));

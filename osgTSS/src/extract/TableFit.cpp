@@ -1,5 +1,6 @@
 #include "TableFit.h"
 #include "osgTSS/src/draw/PointGrid.h"
+#include "osgTSS/src/joints/JointNode.h"
 
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
@@ -96,7 +97,7 @@ std::optional<double> spareOf(const tss::Pair& pair) {
 }
 
 std::string wider(const tss::Dof& now, const tss::Dof& baked) {
-    const double slack = same * (1 + std::abs(baked.lower) + std::abs(baked.upper));
+    const double slack = nodeRounding(baked);
     if (tss::wholeTurn(baked) || (now.lower >= baked.lower - slack && now.upper <= baked.upper + slack))
         return "";
     return "the limits of " + now.name + " are wider than those that its table was made for";

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/motion/LimitRounding.h"
 #include "bake/motion/WholeTurn.h"
 
 #include <osg/Math>
@@ -18,9 +19,14 @@ struct Stray {
     bool unserved = false; ///< nothing can be said of its pairs there; else it is held at its limits
 };
 
+/// How far beyond a limit the floats of nodes and their matrices may have put a value.
+inline double nodeRounding(const tss::Dof& dof) {
+    return tss::belowRange(dof, 1e-5 * (1 + std::abs(dof.lower) + std::abs(dof.upper)));
+}
+
 /// Of a value beyond the limits of a DOF; a whole turn has none.
 inline std::optional<Stray> beyondLimits(const tss::Dof& dof, double value) {
-    const double slack = 1e-5 * (1 + std::abs(dof.lower) + std::abs(dof.upper));
+    const double slack = nodeRounding(dof);
     if (tss::wholeTurn(dof) || (value >= dof.lower - slack && value <= dof.upper + slack))
         return std::nullopt;
     const double unit = dof.kind == tss::DofKind::Rotation ? osg::RadiansToDegrees(1.0) : 1;
