@@ -23,8 +23,9 @@ Pose frameAt(const JointEnd& end, const PrimReader& prim, const Attribute& posit
 
 /// A joint as the file has it: of body0 and body1, either of which may be the world.
 struct Edge {
-    RobotJoint joint;  ///< parent: of body0, child: of body1, which may be -1
-    bool last = false; ///< comes into the forest after all others
+    RobotJoint joint;     ///< parent: of body0, child: of body1, which may be -1
+    bool last = false;    ///< comes into the forest after all others
+    bool several = false; ///< of several joints in the file, whose names its DOFs have
 };
 
 /// The same joint seen from its other body.
@@ -41,6 +42,45 @@ RobotJoint turnedRound(const RobotJoint& joint) {
         dof.origin = joint.origin * dof.origin;
     }
     return other;
+}
+
+/// Both turn about one line, or slide along one direction.
+bool moveAlike(const Dof& a, const Dof& b) {
+    constexpr double rounding = 1e-6; // some steps of a float
+    if (a.kind != b.kind || a.axis.cross(b.axis).norm() > rounding * a.axis.norm() * b.axis.norm())
+        return false;
+    const double apart = (b.origin - a.origin).cross(a.axis).norm();
+    return a.kind == DofKind::Translation || apart <= rounding * (1 + a.origin.norm()) * a.axis.norm();
+}
+
+void nameDofs(RobotJoint& joint) {
+    for (Dof& dof : joint.dofs) dof.name = joint.dofs.size() == 1 ? joint.name : joint.name + "_" + dof.name;
+}
+
+/// Adds the DOFs of another joint of the same two bodies below this one's own. False where the two do not
+/// move them one after the other: either holds them, they have them elsewhere at 0, or both move them alike.
+bool stack(Edge& edge, RobotJoint other) {
+    RobotJoint& joint = edge.joint;
+    nameDofs(other);
+    if (other.parent != joint.parent) other = turnedRound(other);
+    constexpr double rounding = 1e-5; // floats, and numbers written with six digits
+    const double size = 1 + joint.origin.translation().norm();
+    const double apart = (joint.origin.matrix() - other.origin.matrix()).cwiseAbs().maxCoeff();
+    const auto isAlike = [&](const Dof& own) {
+        return std::ranges::any_of(other.dofs, [&](const Dof& dof) { return moveAlike(own, dof); });
+    };
+    if (joint.dofs.empty() || other.dofs.empty() || apart > rounding * size ||
+        std::ranges::any_of(joint.dofs, isAlike))
+        return false;
+    if (!edge.several) nameDofs(joint);
+    edge.several = true;
+    if (!joint.drives.empty() || !other.drives.empty()) {
+        joint.drives.resize(joint.dofs.size());
+        other.drives.resize(other.dofs.size());
+    }
+    joint.dofs.insert(joint.dofs.end(), other.dofs.begin(), other.dofs.end());
+    joint.drives.insert(joint.drives.end(), other.drives.begin(), other.drives.end());
+    return true;
 }
 
 /// Whether time samples give what the limits and frames of a joint are made from.
@@ -66,6 +106,7 @@ public:
                 leftOut_.add("left out: " + type + "s, which tie nothing here", prim.place().path);
         }
         std::stable_partition(edges_.begin(), edges_.end(), [](const Edge& edge) { return !edge.last; });
+        stackEdges();
         chooseForest();
     }
 
@@ -133,6 +174,31 @@ private:
                 path);
         }
         return true;
+    }
+
+    /// Several joints of the same two bodies become one that has the DOFs of all, in the file's order: what
+    /// a body of MuJoCo has and its exporters write like this, for want of such a joint in UsdPhysics
+    /// (github.com/newton-physics/newton reads it so too). Where they are meant to hold one another instead,
+    /// the poses that are left are among these.
+    void stackEdges() {
+        std::map<std::pair<int, int>, std::size_t> firsts;
+        std::vector<Edge> edges;
+        for (Edge& edge : edges_) {
+            const std::pair<int, int> links = std::minmax(edge.joint.parent, edge.joint.child);
+            const auto [first, isNew] = firsts.try_emplace(links, edges.size());
+            if (isNew || edge.last || !stack(edges[first->second], edge.joint))
+                edges.push_back(std::move(edge));
+        }
+        edges_ = std::move(edges);
+        for (Edge& edge : edges_) {
+            if (!edge.several) continue;
+            RobotJoint& joint = edge.joint;
+            joint.name = robot_.links[joint.child >= 0 ? joint.child : joint.parent].name + "_joint";
+            std::vector<std::string> names;
+            for (const Dof& dof : joint.dofs) names.push_back(dof.name);
+            leftOut_.add("several joints of the same two bodies, taken one after the other",
+                         joint.name + " (" + firstOf(names, names.size()) + ")");
+        }
     }
 
     /// Edges that close no loop, each turned so that its parent is nearer to the world, or to the first link.

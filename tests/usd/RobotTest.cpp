@@ -287,6 +287,37 @@ TEST_CASE("a joint that closes a loop is left out, the one outside of the articu
     CHECK(hasNote(made.notes, "/R/first"));
 }
 
+TEST_CASE("several joints of the same two bodies are one with the values of all, one after the other") {
+    const auto turn = [](const char* name, const char* axis, const char* ends, int upper) {
+        return std::string("def PhysicsRevoluteJoint \"") + name + "\" {\nuniform token physics:axis = \"" +
+               axis + "\"\n" + ends +
+               "float physics:lowerLimit = -10\nfloat physics:upperLimit = " + std::to_string(upper) +
+               "\n}\n";
+    };
+    const char *const forth =
+                          "rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n"
+                          "point3f physics:localPos0 = (2, 0, 0)\npoint3f physics:localPos1 = (-2, 0, 0)\n",
+                      *const back =
+                          "rel physics:body0 = </R/b>\nrel physics:body1 = </R/a>\n"
+                          "point3f physics:localPos0 = (-2, 0, 0)\npoint3f physics:localPos1 = (2, 0, 0)\n",
+                      *const elsewhere = "rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n";
+    const RobotScene made =
+        robotScene(twoBoxes(turn("yaw", "Z", forth, 40) + turn("pitch", "Y", back, 50) +
+                            turn("hingeToo", "Z", forth, 20) + turn("apart", "X", elsewhere, 30)));
+    CHECK(hasNote(made.notes, "taken one after the other: b_joint (yaw, pitch)"));
+    CHECK(hasNote(made.notes, "close a loop"));
+    CHECK(hasNote(made.notes, "/R/hingeToo, /R/apart")); // moves alike; at 0 elsewhere
+    REQUIRE(made.scene.pairs.size() == 1);
+    const Motion motion = pairMotion(made.scene, made.scene.pairs[0]);
+    REQUIRE(motion.dofCount() == 2);
+    const double degree = std::numbers::pi / 180, q[] = {40 * degree, 30 * degree};
+    CHECK(motion.dofs[0].upper == Approx(40 * degree));
+    CHECK(motion.dofs[1].upper == Approx(50 * degree));
+    const Pose expected = Eigen::Translation3d(2, 0, 0) * Eigen::AngleAxisd(q[0], Vec3::UnitZ()) *
+                          Eigen::AngleAxisd(-q[1], Vec3::UnitY()) * Eigen::Translation3d(2, 0, 0);
+    CHECK(pose(motion, q).isApprox(expected, 1e-6)); // pitch turns a about b
+}
+
 TEST_CASE("scenery is one body of the world, and filtered pairs are none") {
     const std::string ground =
         "def Cube \"ground\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n"
