@@ -169,7 +169,7 @@ private:
 
     double restOf(const RobotJoint& joint, const Dof& dof) const {
         const auto leader = leaderOf(joint);
-        return leader == robot_.joints.end() ? std::clamp(0.0, dof.lower, dof.upper)
+        return leader == robot_.joints.end() ? std::clamp(dof.rest, dof.lower, dof.upper)
                                              : led(joint, restOf(*leader, leader->dofs[0]));
     }
 

@@ -91,6 +91,15 @@ bool changesInTime(const Prim& joint) {
     });
 }
 
+/// The value of a DOF that has the child stand so in the joint's origin: the nearest to the middle of its
+/// limits, if any has.
+double valueAt(const Dof& dof, const Pose& child) {
+    if (dof.kind == DofKind::Translation) return child.translation().dot(dof.axis) / dof.axis.squaredNorm();
+    const Eigen::Quaterniond turned(child.linear());
+    const double value = 2 * std::atan2(turned.vec().dot(dof.axis.normalized()), turned.w());
+    return value + turn * std::round(((dof.lower + dof.upper) / 2 - value) / turn);
+}
+
 class Joints {
 public:
     Joints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut)
@@ -246,6 +255,29 @@ private:
 
 void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut) {
     Joints(reading, findEnd, robot, leftOut).read();
+}
+
+void restAsShown(Robot& robot, LeftOut& leftOut) {
+    for (RobotJoint& joint : robot.joints) {
+        const Pose parent = joint.parent >= 0 ? robot.links[joint.parent].place : Pose::Identity(),
+                   origin = parent * joint.origin, stands = robot.links[joint.child].place;
+        const auto isShown = [&] {
+            Pose should = origin;
+            for (const Dof& dof : joint.dofs)
+                should = should * dofPose(dof, std::clamp(dof.rest, dof.lower, dof.upper));
+            const double size = 1 + should.translation().norm() + stands.translation().norm();
+            return (should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() <= 1e-3 * size;
+        };
+        if (isShown()) continue;
+        if (joint.dofs.size() == 1) {
+            joint.dofs[0].rest = valueAt(joint.dofs[0], origin.inverse(Eigen::Isometry) * stands);
+            if (isShown()) continue;
+            joint.dofs[0].rest = 0;
+        }
+        leftOut.add("bodies that the file shows elsewhere than their joint has them at 0; values count "
+                    "from the joint's frames",
+                    robot.links[joint.child].name);
+    }
 }
 
 } // namespace tss

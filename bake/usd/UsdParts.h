@@ -56,6 +56,10 @@ using FindJointEnd = std::function<JointEnd(const PrimReader& joint, const std::
 /// be one is left out by name.
 void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut);
 
+/// Where bodies stand elsewhere than a joint of one value has them at 0, that rests at the value which it
+/// is shown at. What no value explains is said.
+void restAsShown(Robot& robot, LeftOut& leftOut);
+
 /// The prim is of no type, or an Xform or Scope.
 bool isGroup(const Prim& prim);
 

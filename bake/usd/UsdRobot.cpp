@@ -32,7 +32,7 @@ public:
             robot_, leftOut_);
         tieToWorld();
         readFilteredPairs();
-        remarkRest();
+        restAsShown(robot_, leftOut_);
         if (robot_.links.empty()) {
             std::string found;
             for (const auto& notes : {robot_.notes, leftOut_.notes()})
@@ -317,22 +317,6 @@ private:
     bool isLinkItself(std::size_t entry) const {
         const int parent = entries_[entry].parent;
         return linkOf_[entry] >= 0 && (parent < 0 || linkOf_[parent] != linkOf_[entry]);
-    }
-
-    /// Bodies that stand elsewhere than their joint puts them at 0.
-    void remarkRest() {
-        for (const RobotJoint& joint : robot_.joints) {
-            const Pose parent = joint.parent >= 0 ? robot_.links[joint.parent].place : Pose::Identity();
-            Pose should = parent * joint.origin;
-            for (const Dof& dof : joint.dofs)
-                should = should * dofPose(dof, std::clamp(0.0, dof.lower, dof.upper));
-            const Pose stands = robot_.links[joint.child].place;
-            const double size = 1 + should.translation().norm() + stands.translation().norm();
-            if ((should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() > 1e-3 * size)
-                leftOut_.add("bodies that the file shows elsewhere than their joint has them at 0; values "
-                             "count from the joint's frames",
-                             robot_.links[joint.child].name);
-        }
     }
 
     mutable Problems problems_;

@@ -318,6 +318,36 @@ TEST_CASE("several joints of the same two bodies are one with the values of all,
     CHECK(pose(motion, q).isApprox(expected, 1e-6)); // pitch turns a about b
 }
 
+TEST_CASE("a joint of one value rests where the stage shows its bodies, if its limits let it") {
+    const std::string ends = "rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n"
+                             "point3f physics:localPos0 = (4, 0, 0)\n";
+    const auto slide = [&](const char* at, int upper) { // b is shown at x = 4
+        return robotScene(twoBoxes("def PhysicsPrismaticJoint \"j\" {\nuniform token physics:axis = \"X\"\n"
+                                   "rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n"
+                                   "float physics:lowerLimit = -1\nfloat physics:upperLimit = " +
+                                   std::to_string(upper) + "\n" + at + "}\n"));
+    };
+    const RobotScene moved = slide("", 9);
+    CHECK(moved.scene.joints.at(0).dofs.at(0).rest == Approx(4));
+    CHECK(!hasNote(moved.notes, "shows elsewhere"));
+    const RobotScene beyond = slide("", 3);
+    CHECK(beyond.scene.joints.at(0).dofs.at(0).rest == 0);
+    CHECK(hasNote(beyond.notes, "shows elsewhere"));
+    const RobotScene beside = slide("point3f physics:localPos0 = (0, 1, 0)\n", 9);
+    CHECK(beside.scene.joints.at(0).dofs.at(0).rest == 0);
+    CHECK(hasNote(beside.notes, "shows elsewhere"));
+
+    std::string turned =
+        twoBoxes("def PhysicsRevoluteJoint \"j\" {\nuniform token physics:axis = \"Z\"\n" + ends +
+                 "float physics:lowerLimit = 300\nfloat physics:upperLimit = 420\n}\n");
+    turned.replace(turned.find("[\"xformOp:translate\"]"), 21,
+                   "[\"xformOp:translate\", \"xformOp:rotateZ\"]\nfloat xformOp:rotateZ = 30");
+    const SceneModel scene = robotScene(turned).scene;
+    CHECK(scene.joints.at(0).dofs.at(0).rest == Approx(390 * std::numbers::pi / 180).epsilon(1e-6));
+    const Vec3 corner = bodyCalled(scene, "b").placement * Vec3(1, 0, 0);
+    CHECK(corner.isApprox(Vec3(4 + std::sqrt(0.75), 0.5, 0), 1e-6));
+}
+
 TEST_CASE("scenery is one body of the world, and filtered pairs are none") {
     const std::string ground =
         "def Cube \"ground\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n"
