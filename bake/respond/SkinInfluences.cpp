@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace tss {
 namespace {
@@ -36,10 +35,9 @@ FrameInfluence frameInfluence(const SkinAnatomy& anatomy, const std::vector<int>
     return made;
 }
 
-/// Finds how often each frame moves, and about which joint. Returns which frames each swing moves, #swings of
-/// #influences, without duplicates.
-std::set<std::vector<char>> setMotions(const SkinParameters& p, const std::vector<int>& frames,
-                                       std::vector<FrameInfluence>& influences) {
+/// Finds how often each frame moves, and about which joint. Returns the frames that swings move together.
+std::vector<MovedGroup> setMotions(const SkinParameters& p, const std::vector<int>& frames,
+                                   std::vector<FrameInfluence>& influences) {
     // Normal equations of the fixed point x of a frame's own swings, those that move the fewest frames with
     // it: (R - I)(x - c) = c - (R c + t) for each, c the centre of its bounds.
     struct FixedPoint {
@@ -48,7 +46,7 @@ std::set<std::vector<char>> setMotions(const SkinParameters& p, const std::vecto
         Vec3 right = Vec3::Zero();
     };
     std::vector<FixedPoint> fixed(influences.size());
-    std::set<std::vector<char>> groups;
+    std::map<std::vector<char>, std::vector<Pose>> groups;
     for (FrameInfluence& frame : influences) frame.moves = p.swings.empty();
     for (const BoneSwing& swing : p.swings) {
         std::map<std::size_t, Pose> moved;
@@ -58,8 +56,9 @@ std::set<std::vector<char>> setMotions(const SkinParameters& p, const std::vecto
                     moved[static_cast<std::size_t>(frames[m])] = station[m];
         std::vector<char> group(influences.size(), 0);
         for (const auto& [h, pose] : moved) group[h] = 1;
-        groups.insert(group);
+        std::vector<Pose>& ends = groups[group];
         for (const auto& [h, pose] : moved) {
+            if (ends.empty() || ends.back().matrix() != pose.matrix()) ends.push_back(pose);
             ++influences[h].moves;
             FixedPoint& own = fixed[h];
             if (own.movers != 0 && own.movers < moved.size()) continue;
@@ -82,7 +81,9 @@ std::set<std::vector<char>> setMotions(const SkinParameters& p, const std::vecto
         const Vec3 from = parent ? Vec3(middle - parent->box.center()) : Vec3::Zero();
         influences[h].twists = some * places.solve(from).norm() > aheadCosine * from.norm();
     }
-    return groups;
+    std::vector<MovedGroup> made;
+    for (auto& [group, ends] : groups) made.push_back({group, std::move(ends)});
+    return made;
 }
 
 } // namespace
@@ -103,7 +104,7 @@ std::vector<SkinInfluence> skinInfluences(const SkinAnatomy& anatomy, const Skin
     std::vector<FrameInfluence> influences;
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     for (int f = 0; f < count; ++f) influences.push_back(frameInfluence(anatomy, frames, f));
-    const std::set<std::vector<char>> groups = setMotions(parameters, frames, influences);
+    std::vector<MovedGroup> groups = setMotions(parameters, frames, influences);
     bool onSkin = false; // some body is in the skin's own frame
     for (std::size_t m = 0; m < frames.size(); ++m)
         onSkin |= frames[m] < 0 && !anatomy.bodies[m]->muscle().surface.empty();
@@ -111,7 +112,7 @@ std::vector<SkinInfluence> skinInfluences(const SkinAnatomy& anatomy, const Skin
         influences.push_back(frameInfluence(anatomy, frames, -1));
         influences.back().influence.size = infinity;
     }
-    return assignParts(anatomy, std::move(influences), {groups.begin(), groups.end()});
+    return assignParts(anatomy, std::move(influences), std::move(groups));
 }
 
 } // namespace tss

@@ -3,7 +3,6 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
-#include "bake/respond/SkinSides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -254,7 +253,7 @@ void assignPart(const FreePart& part, std::size_t still, const std::vector<Frame
 } // namespace
 
 std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<FrameInfluence> influences,
-                                       std::vector<std::vector<char>> moved) {
+                                       std::vector<MovedGroup> groups) {
     std::size_t still = 0;
     while (still < influences.size() && influences[still].moves > 0) ++still;
     const bool anyStill = still < influences.size();
@@ -262,8 +261,8 @@ std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<F
     std::vector<SkinInfluence> made;
     for (const FrameInfluence& h : influences) made.push_back(h.influence);
     if (!anyStill) made.push_back(restInfluence(influences, free));
-    for (std::vector<char>& group : moved) group.resize(made.size(), 0);
-    const SkinSides sides(anatomy, made, moved);
+    for (MovedGroup& group : groups) group.moved.resize(made.size(), 0);
+    const SkinSides sides(anatomy, made, groups);
     for (const FreePart& part : free.parts) {
         if (!anyStill || part.neighbours.empty()) continue;
         if (isBesideVertebrae(part, influences))

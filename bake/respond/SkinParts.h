@@ -1,12 +1,13 @@
 #pragma once
 #include "bake/respond/SkinInfluences.h"
+#include "bake/respond/SkinSides.h"
 
 namespace tss {
 
 /// Assigns the parts of a skin whose bones are not given to influences, see skinInfluences(), and to each
 /// influence the vertices that certainly belong to it. Returns the influences, with one more that never moves
-/// if no bone is at rest. moved: #swings of #influences.
+/// if no bone is at rest.
 std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<FrameInfluence> influences,
-                                       std::vector<std::vector<char>> moved);
+                                       std::vector<MovedGroup> groups);
 
 } // namespace tss

@@ -39,16 +39,23 @@ std::vector<std::uint32_t> firmSeeds(const SkinGraph& graph, const SkinInfluence
     return kept;
 }
 
-/// Sets vertices to Either that are no farther from a cut than the cut there is from the seeds.
-void dropUncertain(const SkinGraph& graph, const std::vector<double>& price, std::vector<SkinSide>& sides) {
-    const double most = *std::max_element(price.begin(), price.end());
+/// How far the ends of swings move a place, at most.
+double displacement(const std::vector<Pose>& ends, const Vec3& place) {
+    double most = 0;
+    for (const Pose& end : ends) most = std::max(most, (end * place - place).norm());
+    return most;
+}
+
+/// Sets vertices to Either that are no farther from a cut than the cut there is from the seeds, `far`.
+void dropUncertain(const SkinGraph& graph, const std::vector<double>& far, std::vector<SkinSide>& sides) {
+    const double most = *std::max_element(far.begin(), far.end());
     std::vector<std::uint32_t> beside;
-    std::vector<double> starts; // most - price: within `most` then means within the price
+    std::vector<double> starts; // most - far: within `most` then means within `far`
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         for (const SkinGraph::Edge& edge : graph.edges[v])
             if (sides[edge.to] != sides[v]) {
                 beside.push_back(v);
-                starts.push_back(most - price[v]);
+                starts.push_back(most - far[v]);
                 break;
             }
     std::vector<double> from(sides.size(), infinity);
@@ -60,7 +67,7 @@ void dropUncertain(const SkinGraph& graph, const std::vector<double>& price, std
 } // namespace
 
 SkinSides::SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence>& influences,
-                     const std::vector<std::vector<char>>& moved)
+                     const std::vector<MovedGroup>& groups)
     : anatomy_(anatomy) {
     const std::size_t count = anatomy.skin.vertices.size();
     std::vector<std::vector<std::uint32_t>> seeds = seedsOf(influences);
@@ -70,13 +77,14 @@ SkinSides::SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence
         along_.emplace_back(count, infinity);
         lowerDistances(anatomy.graph, seeds[h], infinity, along_.back());
     }
-    for (const std::vector<char>& group : moved) {
-        Swing swing{group, std::vector<double>(count, 0), std::vector<SkinSide>(count, SkinSide::Either)};
+    for (const MovedGroup& group : groups) {
+        Swing swing{group.moved, std::vector<double>(count, 0), std::vector<double>(count, 0),
+                    std::vector<SkinSide>(count, SkinSide::Either)};
         std::vector<double> nearest[2] = {std::vector<double>(count, infinity),
                                           std::vector<double>(count, infinity)};
         bool both[2] = {false, false};
         for (std::size_t h = 0; h < influences.size(); ++h) {
-            const bool inside = group[h];
+            const bool inside = group.moved[h];
             both[inside] |= seeded_[h];
             for (const std::uint32_t v : seeds[h])
                 swing.fixed[v] = inside ? SkinSide::Inside : SkinSide::Outside;
@@ -85,8 +93,9 @@ SkinSides::SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence
         }
         for (std::size_t v = 0; v < count; ++v) {
             const double farther = std::max(nearest[0][v], nearest[1][v]);
+            swing.price[v] = displacement(group.ends, anatomy.skin.vertices[v]);
             if (std::isfinite(farther))
-                swing.price[v] = farther;
+                swing.far[v] = farther;
             else if (std::isfinite(nearest[0][v]))
                 swing.fixed[v] = SkinSide::Outside; // the only seeds on its shell
             else if (std::isfinite(nearest[1][v]))
@@ -140,7 +149,7 @@ SkinSides::Sides SkinSides::sidesOf(const std::vector<SkinInfluence>& influences
         const SkinCut cut = SkinCutter(anatomy_.skin, anatomy_.graph, swings_[s].price).cut(tied);
         for (const char inside : cut.inside)
             sides[s].push_back(inside ? SkinSide::Inside : SkinSide::Outside);
-        dropUncertain(anatomy_.graph, swings_[s].price, sides[s]);
+        dropUncertain(anatomy_.graph, swings_[s].far, sides[s]);
     });
     return sides;
 }

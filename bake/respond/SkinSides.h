@@ -6,15 +6,20 @@
 
 namespace tss {
 
+/// Influences that swings of a joint move together.
+struct MovedGroup {
+    std::vector<char> moved; ///< #influences
+    std::vector<Pose> ends;  ///< where the swings end: motions since rest, in the skin's frame
+};
+
 /// Which skin moves in each swing of a joint: the inside of a minimum cut between the seeds of the influences
-/// that the swing moves and those of the others. A cut costs, per length, its distance along the skin from
-/// the farther of the two. So a limb is separated from its body around its root, even where large parts of
-/// either have no bones.
+/// that the swing moves and those of the others. A cut costs, per length, how far the swing moves the skin
+/// there: what is torn apart. So a limb is separated from its body around its joint, even where large parts
+/// of either have no bones.
 class SkinSides {
 public:
-    /// moved: #swings of #influences.
     SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence>& influences,
-              const std::vector<std::vector<char>>& moved);
+              const std::vector<MovedGroup>& groups);
 
     /// The one influence that a part of the skin is attached to, if there is one: to cut it off from all
     /// others costs next to nothing.
@@ -27,7 +32,8 @@ public:
 private:
     struct Swing {
         std::vector<char> moved;     ///< #influences
-        std::vector<double> price;   ///< #V: distance along the skin to the farther group of seeds
+        std::vector<double> price;   ///< #V: how far it moves a place of the skin, scene units
+        std::vector<double> far;     ///< #V: distance along the skin to the farther group of seeds
         std::vector<SkinSide> fixed; ///< #V: sides of the seeds, Either for all others
     };
     using Sides = std::vector<std::vector<SkinSide>>; ///< #swings of #V

@@ -40,6 +40,12 @@ std::vector<SkinSide> between(const TriangleMesh& mesh, double low, double high)
     return sides;
 }
 
+/// The second of two influences turned by a right angle about the y axis through (x, 0, 0).
+MovedGroup swing(double x) {
+    const Eigen::Translation3d to(x, 0, 0);
+    return {{0, 1}, {Pose(to * Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()) * to.inverse())}};
+}
+
 } // namespace
 
 TEST_CASE("a skin is cut where it is thinnest, or where a cut costs less") {
@@ -65,6 +71,25 @@ TEST_CASE("a skin is cut where it is thinnest, or where a cut costs less") {
     CHECK(std::count(free.inside.begin(), free.inside.end(), 1) == 19 * around);
 }
 
+TEST_CASE("a part between two bones is attached beyond the joint, whether the skin is thin there or not") {
+    const TriangleMesh mesh = vase();
+    const SkinAnatomy anatomy(mesh, {}, {});
+    std::vector<SkinInfluence> influences(2);
+    for (const Vec3& v : mesh.vertices) {
+        influences[0].distance.push_back(1 + std::max(0.0, v.x() - 12));
+        influences[1].distance.push_back(1 + std::max(0.0, 50 - v.x()));
+    }
+    influences[0].size = influences[1].size = 10;
+    const auto ring = [&](double low, double high) {
+        std::vector<std::uint32_t> part;
+        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+            if (mesh.vertices[v].x() >= low && mesh.vertices[v].x() <= high) part.push_back(v);
+        return part;
+    };
+    CHECK(SkinSides(anatomy, influences, {swing(20)}).ownerOf(ring(44, 46)) == std::size_t{1});
+    CHECK(SkinSides(anatomy, influences, {swing(47)}).ownerOf(ring(26, 28)) == std::size_t{0});
+}
+
 TEST_CASE("seeds that lie far off by chance part no skin, and each bone has what is on its side of the cut") {
     const TriangleMesh mesh = vase();
     const SkinAnatomy anatomy(mesh, {}, {});
@@ -75,7 +100,7 @@ TEST_CASE("seeds that lie far off by chance part no skin, and each bone has what
         influences[1].distance.push_back(odd ? 20 : 1 + std::abs(v.x() - 50));
     }
     influences[0].size = influences[1].size = 10;
-    SkinSides(anatomy, influences, {{0, 1}}).assignCertain(influences);
+    SkinSides(anatomy, influences, {swing(30)}).assignCertain(influences);
     const auto sure = [&](std::size_t h, auto&& which) {
         return std::count_if(influences[h].certain.begin(), influences[h].certain.end(),
                              [&](std::uint32_t v) { return which(mesh.vertices[v].x()); });
@@ -97,7 +122,7 @@ TEST_CASE("a shell on which one bone alone is sure of anything is that one's") {
         influences[1].distance.push_back(1 + std::abs(x - 50));
     }
     influences[0].size = influences[1].size = 10;
-    SkinSides(anatomy, influences, {{0, 1}}).assignCertain(influences);
+    SkinSides(anatomy, influences, {swing(30)}).assignCertain(influences);
     const auto second = [&](const SkinInfluence& h) {
         return std::count_if(h.certain.begin(), h.certain.end(), [&](std::uint32_t v) { return v >= count; });
     };
