@@ -275,25 +275,49 @@ Pose jointPose(const Joint& joint, std::span<const double> values) {
     return pose * joint.frame1.inverse(Eigen::Isometry);
 }
 
+std::vector<int> movers(const SceneModel& scene) {
+    std::vector<int> mover(scene.bodies.size(), -1);
+    for (int j = 0; j < static_cast<int>(scene.joints.size()); ++j) {
+        const Joint& joint = scene.joints[j];
+        if (!joint.enabled || joint.body1 < 0 || mover[joint.body1] >= 0) continue;
+        int above = joint.body0;
+        while (above >= 0 && above != joint.body1)
+            above = mover[above] < 0 ? -1 : scene.joints[mover[above]].body0;
+        if (above < 0) mover[joint.body1] = j;
+    }
+    return mover;
+}
+
+void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers) {
+    for (const int index : pair.joints) {
+        const Joint& joint = scene.joints[index];
+        const std::string expected = "expected that " + joint.path + " moves its physics:body1, found that ";
+        if (joint.body1 < 0) throw InputError(expected + "this is the world");
+        if (const int by = movers[joint.body1]; by != index)
+            throw InputError(expected + scene.bodies[joint.body1].path +
+                             (by < 0 ? " stands" : " moves by " + scene.joints[by].path));
+    }
+}
+
 std::vector<Pose> posedBodies(const SceneModel& scene, std::span<const double> values) {
+    const std::vector<int> mover = movers(scene);
+    const std::vector<std::size_t> first = firstValues(scene);
     std::vector<Pose> placements;
     for (const Body& body : scene.bodies) placements.push_back(body.placement);
-    std::vector<bool> placed(scene.bodies.size(), true);
-    for (const Joint& joint : scene.joints)
-        if (joint.enabled && joint.body1 >= 0) placed[joint.body1] = false;
-
-    for (bool again = true; again;) { // outwards along the joints, however they are ordered in the file
-        again = false;
-        std::size_t first = 0;
-        for (const Joint& joint : scene.joints) {
-            const auto own = values.subspan(first, joint.dofs.size());
-            first += joint.dofs.size();
-            const bool ready = joint.body0 < 0 || placed[joint.body0];
-            if (!joint.enabled || joint.body1 < 0 || placed[joint.body1] || !ready) continue;
+    std::vector<bool> placed(scene.bodies.size(), false);
+    std::vector<int> way; // up from a body to what is placed already, then back
+    for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body) {
+        for (int at = body; at >= 0 && !placed[at];) {
+            placed[at] = true;
+            if (mover[at] < 0) break;
+            way.push_back(mover[at]);
+            at = scene.joints[mover[at]].body0;
+        }
+        for (; !way.empty(); way.pop_back()) {
+            const Joint& joint = scene.joints[way.back()];
             const Pose parent = joint.body0 < 0 ? Pose::Identity() : placements[joint.body0];
+            const auto own = values.subspan(first[way.back()], joint.dofs.size());
             placements[joint.body1] = parent * jointPose(joint, own);
-            placed[joint.body1] = true;
-            again = true;
         }
     }
     return placements;

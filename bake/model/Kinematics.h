@@ -52,9 +52,16 @@ bool isDriven(const Joint& joint, std::size_t dof);
 /// body0 come in reverse order.
 std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair);
 
+/// Of each body the joint that moves it, as its body1; -1: none does, it stays as modelled. A body that is
+/// body1 of several joints goes with the first of them in file order, and a joint that leads back to its own
+/// body0 moves nothing.
+std::vector<int> movers(const SceneModel& scene);
+
+/// Throws InputError where a pair's bodies do not stand as its chain of joints says when these have their
+/// values: a joint of it is not the one that moves its body1. movers: those of the scene.
+void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers);
+
 /// Where each body stands (body to world) when the joints have these values, in the order of restValues().
-/// Bodies that no enabled joint moves stay as modelled; where joints
-/// close a loop, the first joint in file order that reaches a body places it.
 std::vector<Pose> posedBodies(const SceneModel& scene, std::span<const double> values);
 
 /// body1 to body0 of one joint: frame0 * D1...Dd * frame1^-1.

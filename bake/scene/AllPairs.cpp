@@ -48,8 +48,9 @@ std::string freePath(const SceneModel& scene, const std::unordered_set<std::stri
 }
 
 /// Why a motion cannot be baked; empty when it can.
-std::string obstacle(const SceneModel& scene, const Pair& pair) {
+std::string obstacle(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers) {
     try {
+        requireMoved(scene, pair, movers);
         const Motion motion = pairMotion(scene, pair);
         checkMotion(motion);
         wholeBox(motion); // refuses chains that are too long
@@ -60,8 +61,8 @@ std::string obstacle(const SceneModel& scene, const Pair& pair) {
 }
 
 /// The pair of two bodies, B the one that moves; nothing, perhaps with a note, where they are none.
-std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, int a, int b,
-                           std::vector<std::string>& notes) {
+std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, const std::vector<int>& movers,
+                           int a, int b, std::vector<std::string>& notes) {
     const std::string both = scene.bodies[a].path + " and " + scene.bodies[b].path;
     const auto chain = ways.chain(a, b);
     if (!chain) {
@@ -79,11 +80,11 @@ std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, int a
         pair.bodyA = joint.body0, pair.bodyB = joint.body1;
         pair.path = joint.path;
     }
-    std::string why = obstacle(scene, pair);
+    std::string why = obstacle(scene, pair, movers);
     if (!why.empty() && chain->size() > 1) { // a path may be crossed in one direction only
         std::swap(pair.bodyA, pair.bodyB);
         std::ranges::reverse(pair.joints);
-        if (obstacle(scene, pair).empty()) why.clear();
+        if (obstacle(scene, pair, movers).empty()) why.clear();
     }
     if (!why.empty()) {
         notes.push_back(both + ": " + why);
@@ -101,13 +102,14 @@ AllPairs addAllPairs(SceneModel& scene) {
         if (canCollide(scene, k)) bodies.push_back(k);
     const std::size_t first = scene.pairs.size();
     const JointWays ways(scene.joints);
+    const std::vector<int> moving = movers(scene);
     std::unordered_set<std::string> paths = pathsOf(scene);
     std::set<std::pair<int, int>> known;
     for (const Pair& pair : scene.pairs) known.insert(std::minmax(pair.bodyA, pair.bodyB));
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j) {
             if (known.contains({bodies[i], bodies[j]})) continue;
-            std::optional<Pair> pair = pairOf(scene, ways, bodies[i], bodies[j], result.notes);
+            std::optional<Pair> pair = pairOf(scene, ways, moving, bodies[i], bodies[j], result.notes);
             if (!pair) continue;
             if (pair->path.empty()) pair->path = freePath(scene, paths, *pair);
             paths.insert(pair->path);

@@ -8,6 +8,8 @@ namespace tss {
 
 namespace {
 
+constexpr const char* loopFound = ", found more than one: a pair cannot be part of a closed loop";
+
 bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const PrimReader& prim,
                       Pair& pair) {
     const auto paths = prim.targets(schema::bodies);
@@ -21,7 +23,7 @@ bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const 
     const auto chain = ways.chain(pair.bodyA, pair.bodyB);
     if (!chain)
         prim.targetProblem(schema::bodies, "expected one chain of joints from ", paths[0], " to ", paths[1],
-                           ", found more than one: a pair cannot be part of a closed loop");
+                           loopFound);
     else if (chain->empty())
         prim.targetProblem(schema::bodies, "expected a chain of joints from ", paths[0], " to ", paths[1],
                            ", found none");
@@ -30,7 +32,8 @@ bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const 
     return chain && !chain->empty();
 }
 
-bool readBodiesOfJoint(const SceneReading& reading, const PrimReader& prim, Pair& pair) {
+bool readBodiesOfJoint(const SceneReading& reading, const JointWays& ways, const PrimReader& prim,
+                       Pair& pair) {
     const int index = reading.jointAt.at(pair.path);
     const Joint& joint = reading.scene.joints[index];
     pair.bodyA = joint.body0;
@@ -40,7 +43,14 @@ bool readBodiesOfJoint(const SceneReading& reading, const PrimReader& prim, Pair
         reading.problems.add(prim.placeOf(schema::bodies), "expected tss:bodies on a prim that is no joint");
     if (pair.bodyA < 0 || pair.bodyB < 0)
         prim.problem("expected physics:body0 and physics:body1: a pair needs both");
-    return pair.bodyA >= 0 && pair.bodyB >= 0;
+    else if (!joint.enabled)
+        prim.problem("expected a joint that is enabled: the two bodies of a pair move by it");
+    else if (!ways.chain(pair.bodyA, pair.bodyB))
+        prim.problem("expected one chain of joints from ", reading.scene.bodies[pair.bodyA].path, " to ",
+                     reading.scene.bodies[pair.bodyB].path, loopFound);
+    else
+        return true;
+    return false;
 }
 
 void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
@@ -51,7 +61,8 @@ void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair
 }
 
 /// Everything that a motion needs and that a joint alone may do without.
-bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const Pair& pair) {
+bool checkPairMotion(const SceneReading& reading, const std::vector<int>& movers, const PrimReader& prim,
+                     const Pair& pair) {
     for (int index : pair.joints) {
         const Joint& joint = reading.scene.joints[index];
         for (const Dof& dof : joint.dofs)
@@ -68,6 +79,7 @@ bool checkPairMotion(const SceneReading& reading, const PrimReader& prim, const 
         }
     }
     try {
+        requireMoved(reading.scene, pair, movers);
         checkMotion(pairMotion(reading.scene, pair));
     } catch (const InputError& error) {
         prim.problem(error.message);
@@ -107,16 +119,17 @@ void writeSettings(Prim& prim, const BakeSettings& settings) {
 void readPairs(SceneReading& reading) {
     const auto isPair = [](const Prim& prim) { return hasApi(prim, "TssPairAPI"); };
     const JointWays ways(reading.scene.joints);
+    const std::vector<int> moving = movers(reading.scene);
     reading.forPrims(isPair, [&](const PrimReader& prim, int entry) {
         if (!reading.ownPrim(entry, "TssPairAPI")) return;
         Pair pair;
         pair.path = prim.place().path;
         pair.settings = readSettings(prim);
-        const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, prim, pair)
+        const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, ways, prim, pair)
                                                               : readBodiesOfPrim(reading, ways, prim, pair);
         if (!tied) return;
         checkMeshes(reading, prim, pair);
-        if (checkPairMotion(reading, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
+        if (checkPairMotion(reading, moving, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
     });
 }
 

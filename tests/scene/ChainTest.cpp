@@ -240,3 +240,113 @@ TEST_CASE(
     }
     CHECK(reversed > 20);
 }
+
+namespace {
+
+/// Three bodies in a row on hinges, and joints on top, each between two of them; -1 is the world.
+SceneModel linkage(const std::vector<std::pair<int, int>>& more) {
+    std::mt19937_64 random(5);
+    SceneModel scene;
+    for (const char* name : {"A", "B", "C"}) samples::addBody(scene, name);
+    const auto add = [&](int body0, int body1) {
+        Joint joint = randomJoint(random, "J" + std::to_string(scene.joints.size()), body0, body1);
+        joint.dofs = {randomDof(random, 1, true)};
+        joint.planes.clear();
+        joint.drives.resize(1);
+        scene.joints.push_back(joint);
+    };
+    add(0, 1), add(1, 2);
+    for (const auto& [body0, body1] : more) add(body0, body1);
+    return scene;
+}
+
+void onlyPair(SceneModel& scene, const std::string& path, int bodyA, int bodyB, std::vector<int> joints) {
+    Pair pair;
+    pair.path = path;
+    pair.bodyA = bodyA;
+    pair.bodyB = bodyB;
+    pair.joints = std::move(joints);
+    scene.pairs = {pair};
+}
+
+void pairOn(SceneModel& scene, int joint) {
+    const Joint& on = scene.joints[joint];
+    onlyPair(scene, on.path, on.body0, on.body1, {joint});
+}
+
+} // namespace
+
+TEST_CASE("a pair on a joint of a closed loop is refused, as one over a chain of it is") {
+    // Closed forwards, and by a body that two joints move.
+    for (const auto& closing : {std::pair(2, 0), std::pair(0, 2)})
+        for (int joint = 0; joint < 3; ++joint) {
+            SceneModel scene = linkage({closing});
+            CHECK_NOTHROW(samples::fromFile(scene)); // without a pair nothing is said of it
+            pairOn(scene, joint);
+            CHECK_THROWS_WITH(samples::fromFile(scene),
+                              Catch::StartsWith("test.tss: /primChildren/0/primChildren/") &&
+                                  Catch::Contains("(</Scene/J" + std::to_string(joint) + ">)") &&
+                                  Catch::Contains("expected one chain of joints from /Scene/") &&
+                                  Catch::Contains("closed loop"));
+            scene.joints.back().enabled = false;
+            if (joint < 2)
+                CHECK_NOTHROW(samples::fromFile(scene));
+            else
+                CHECK_THROWS_WITH(samples::fromFile(scene), Catch::Contains("expected a joint that is enabled"));
+        }
+    // One that the pair's bodies have no part in is none of its business.
+    SceneModel elsewhere = linkage({{-1, 0}, {-1, 0}});
+    pairOn(elsewhere, 1);
+    CHECK_NOTHROW(samples::fromFile(elsewhere));
+}
+
+TEST_CASE("a pair over a joint that does not move its body1 is refused") {
+    SceneModel scene = linkage({});
+    samples::addBody(scene, "D");
+    std::mt19937_64 random(6);
+    scene.joints.push_back(scene.joints[1]);
+    scene.joints[2].path = "/Scene/J2";
+    scene.joints[2].body0 = 3; // C hangs on B and on D
+    pairOn(scene, 1);
+    CHECK_NOTHROW(samples::fromFile(scene));
+    pairOn(scene, 2);
+    const auto refused = Catch::Contains("(</Scene/J2>): expected that /Scene/J2 moves its physics:body1, "
+                                         "found that /Scene/C moves by /Scene/J1");
+    CHECK_THROWS_WITH(samples::fromFile(scene), refused);
+    onlyPair(scene, "/Scene/Ends", 0, 3, {0, 1, 2});
+    CHECK_THROWS_WITH(samples::fromFile(scene), Catch::Contains("/Scene/C moves by /Scene/J1"));
+    scene.joints[2].body0 = 0, scene.joints[2].body1 = -1; // the world hangs on A
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints[3].path = "/Scene/J3";
+    scene.joints[3].body0 = -1, scene.joints[3].body1 = 3;
+    onlyPair(scene, "/Scene/Ends", 0, 3, {2, 3});
+    CHECK_THROWS_WITH(samples::fromFile(scene), Catch::Contains("/Scene/J2 moves its physics:body1, found that "
+                                                                "this is the world"));
+}
+
+TEST_CASE("bodies stand where the joints that move them say, however these are ordered") {
+    std::mt19937_64 random(8);
+    for (int round = 0; round < 50; ++round) {
+        SceneModel scene = linkage({{2, 0}, {-1, 2}}); // a loop, and C on the world as well
+        std::shuffle(scene.joints.begin(), scene.joints.end(), random);
+        std::vector<double> values;
+        for (const Joint& joint : scene.joints)
+            values.push_back(uniform(random, joint.dofs[0].lower, joint.dofs[0].upper));
+        const std::vector<int> mover = movers(scene);
+        const std::vector<Pose> stands = posedBodies(scene, values);
+        int standing = 0;
+        for (int body = 0; body < 3; ++body) {
+            if (mover[body] < 0) {
+                ++standing;
+                CHECK(stands[body].matrix() == scene.bodies[body].placement.matrix());
+                continue;
+            }
+            const Joint& joint = scene.joints[mover[body]];
+            CHECK(joint.body1 == body);
+            const Pose parent = joint.body0 < 0 ? Pose::Identity() : stands[joint.body0];
+            const Pose expected = parent * jointMatrix(joint, {values[mover[body]]});
+            CHECK((stands[body].matrix() - expected.matrix()).cwiseAbs().maxCoeff() < 1e-12);
+        }
+        CHECK(standing <= 1);
+    }
+}

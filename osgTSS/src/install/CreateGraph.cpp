@@ -1,6 +1,8 @@
 #include "osgTSS/src/draw/BodyGeometry.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 
+#include "bake/model/Kinematics.h"
+
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
 #include <osg/Notify>
@@ -51,22 +53,13 @@ public:
     }
 
 private:
-    /// The joint that moves each body, -1 for none: the first in file order that does not close a loop.
     void findMovers() {
-        _mover.assign(_model.bodies.size(), -1);
+        _mover = tss::movers(_model);
         for (std::size_t j = 0; j < _model.joints.size(); ++j) {
             const tss::Joint& joint = _model.joints[j];
-            if (!joint.enabled || joint.body1 < 0) continue;
-            int above = joint.body0;
-            while (above >= 0 && above != joint.body1 && _mover[above] >= 0)
-                above = _model.joints[_mover[above]].body0;
-            if (_mover[joint.body1] >= 0 || above == joint.body1) {
-                OSG_NOTICE << "osgTSS: joint " << joint.path << " is not played: body "
-                           << _model.bodies[joint.body1].path << " is moved by other joints already"
-                           << std::endl;
-                continue;
-            }
-            _mover[joint.body1] = static_cast<int>(j);
+            if (!joint.enabled || joint.body1 < 0 || _mover[joint.body1] == static_cast<int>(j)) continue;
+            OSG_NOTICE << "osgTSS: joint " << joint.path << " is not played: body "
+                       << _model.bodies[joint.body1].path << " is moved by other joints already" << std::endl;
         }
     }
 
