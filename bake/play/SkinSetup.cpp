@@ -8,7 +8,6 @@
 #include "bake/respond/SkinRig.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,15 +22,6 @@ const TriangleMesh& meshOf(const SceneModel& scene, const SkinModel& skin) {
 
 constexpr int stations = 16; ///< of a swing, after rest
 
-/// How far a value goes either way. A joint of no pair may turn without limits: half way round.
-std::array<double, 2> endsOf(const Dof& dof) {
-    const auto end = [&](double limit, double side) {
-        return dof.kind == DofKind::Rotation && std::isinf(limit) ? dof.rest + side * std::numbers::pi
-                                                                  : limit;
-    };
-    return {end(dof.lower, -1), end(dof.upper, 1)};
-}
-
 /// What the bones under a skin do while one joint value at a time goes to either limit. farTurns: takes the
 /// joints that turn by more than half a turn from rest.
 std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin,
@@ -42,8 +32,8 @@ std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin,
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) {
-            for (const double limit : endsOf(dof)) {
-                if (!std::isfinite(limit) || limit == dof.rest) continue;
+            for (const double limit : swingEnds(dof)) {
+                if (limit == dof.rest) continue;
                 BoneSwing swing;
                 bool moves = false;
                 for (int s = 1; s <= stations; ++s) {
@@ -107,6 +97,14 @@ Muscle bone(const TriangleMesh& mesh) {
 }
 
 } // namespace
+
+std::array<double, 2> swingEnds(const Dof& dof) {
+    const double unlimited = dof.kind == DofKind::Rotation ? std::numbers::pi : 0;
+    const auto end = [&](double limit, double side) {
+        return std::isinf(limit) ? dof.rest + side * unlimited : limit;
+    };
+    return {end(dof.lower, -1), end(dof.upper, 1)};
+}
 
 Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
     Muscle muscle = model.muscle;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tss::reporting {
 
@@ -50,11 +49,6 @@ std::vector<SkinAsked> activationsUpAndDown(const Muscles& muscles, int steps) {
     return asked;
 }
 
-/// A joint of no pair may turn without limits: half way round.
-double endOf(const Dof& dof, double limit, double side) {
-    return std::isinf(limit) ? dof.rest + side * std::numbers::pi : limit;
-}
-
 std::vector<SkinAsked> jointsInTurn(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
                                     int steps) {
     std::vector<SkinAsked> asked;
@@ -63,7 +57,7 @@ std::vector<SkinAsked> jointsInTurn(const SceneModel& scene, const SkinModel& sk
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) {
-            const double lower = endOf(dof, dof.lower, -1), upper = endOf(dof, dof.upper, 1);
+            const auto [lower, upper] = swingEnds(dof);
             for (int s = 0; s < each; ++s) {
                 std::vector<double> values = rest;
                 values[next] = lower + (upper - lower) * s / (each - 1);

@@ -185,8 +185,7 @@ TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform) {
     TriangleMesh mesh;
     mesh.vertices = prim.vectors(schema::points);
     mesh.triangles = readTriangles(prim, mesh.vertices);
-    if (xform.stretched)
-        for (Vec3& vertex : mesh.vertices) vertex = xform.stretch * vertex;
+    for (Vec3& vertex : mesh.vertices) vertex = stretched(xform, vertex);
     const bool leftHanded = prim.choice(orientation) == "leftHanded";
     const bool mirrored = xform.stretched && xform.stretch.determinant() < 0;
     if (leftHanded != mirrored)

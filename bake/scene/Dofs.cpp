@@ -164,6 +164,13 @@ void lockTheRest(PrimWriter& prim, const std::vector<DofSlots>& free) {
     }
 }
 
+/// Of unit length; one that is so but for rounding stays as it is, so that what was read and written is read
+/// as the same again.
+Eigen::Quaterniond unitTurn(const Eigen::Quaterniond& turn) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    return std::abs(turn.squaredNorm() - 1) <= rounding ? turn : turn.normalized();
+}
+
 /// The rows of all paths: value, translation, quaternion w x y z.
 Paths readPaths(const PrimReader& prim) {
     Paths paths;
@@ -188,7 +195,7 @@ Paths readPaths(const PrimReader& prim) {
                              turn.norm(), " in row ", index);
             if (k > 0 && !(row[0] > path.back().value))
                 prim.problem(pathNumbers, "expected rising values, found ", row[0], " in row ", index);
-            path.push_back({row[0], Vec3(row[1], row[2], row[3]), turn.normalized()});
+            path.push_back({row[0], Vec3(row[1], row[2], row[3]), unitTurn(turn)});
         }
     }
     return paths;

@@ -34,7 +34,7 @@ Pose readFrame(const SceneReading& reading, const PrimReader& prim, int body, co
                const Attribute& rotation) {
     Pose frame = Pose::Identity();
     Vec3 at = prim.vector(position, Vec3::Zero());
-    if (body >= 0 && reading.bodyXforms[body].stretched) at = reading.bodyXforms[body].stretch * at;
+    if (body >= 0) at = stretched(reading.bodyXforms[body], at);
     frame.linear() = prim.rotation(rotation).toRotationMatrix();
     frame.translation() = at;
     return frame;

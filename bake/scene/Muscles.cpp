@@ -143,8 +143,7 @@ void readMuscles(SceneReading& reading) {
         model.activation = prim.samples(activation);
         if (model.body < 0) return;
         muscle.surface = reading.scene.bodies[model.body].mesh;
-        if (const SplitXform& xform = reading.bodyXforms[model.body]; xform.stretched)
-            for (Vec3& point : muscle.fibre) point = xform.stretch * point;
+        for (Vec3& point : muscle.fibre) point = stretched(reading.bodyXforms[model.body], point);
         reading.muscleAt[model.path] = static_cast<int>(reading.scene.muscles.size());
         reading.scene.muscles.push_back(std::move(model));
     });

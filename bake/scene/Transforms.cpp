@@ -1,6 +1,7 @@
 #include "bake/scene/Transforms.h"
 
 #include "bake/base/Degrees.h"
+#include "bake/base/NearestFloat.h"
 #include "bake/motion/SmallSystems.h"
 
 namespace tss {
@@ -118,6 +119,10 @@ bool resetsXformStack(const PrimReader& prim) {
     for (const std::string& name : prim.texts(schema::xformOpOrder))
         if (name == resetToken) return true;
     return false;
+}
+
+Vec3 stretched(const SplitXform& xform, const Vec3& point) {
+    return xform.stretched ? Vec3((xform.stretch * point).unaryExpr(&nearestFloat)) : point;
 }
 
 SplitXform split(const Xform& xform) {

@@ -1,4 +1,6 @@
 #include "bake/base/AtomicFile.h"
+#include "bake/play/SkinSetup.h"
+#include "bake/report/SkinAsked.h"
 #include "bake/report/Text.h"
 #include "tests/report/Arm.h"
 
@@ -84,4 +86,23 @@ TEST_CASE("a skin is judged along the joints of the scene's own animation") {
     CHECK(report.skins[0].motion.motion == "the scene's own animation");
     CHECK(report.skins[0].motion.bones);
     CHECK(report.skins[0].motion.farthestMove > 0.2);
+}
+
+TEST_CASE("of a joint without limits a turn goes half way round, and a slide stays, as its skin's table has it") {
+    SceneModel scene = elbowScene();
+    Dof& dof = scene.joints[0].dofs[0];
+    const double unlimited = std::numeric_limits<double>::infinity();
+    dof.lower = -unlimited, dof.upper = unlimited;
+    const auto bonesMove = [&] {
+        const bool swings = !skinParameters(scene, scene.skins[0]).swings.empty();
+        CHECK(skinAskedMotion(scene, scene.skins[0], skinMuscles(scene, scene.skins[0]), 4).bones == swings);
+        return swings;
+    };
+    CHECK(bonesMove());
+    CHECK(swingEnds(dof)[1] == Approx(3.14159265));
+    dof.kind = DofKind::Translation;
+    CHECK_FALSE(bonesMove());
+    dof.upper = 2;
+    CHECK(bonesMove());
+    CHECK(swingEnds(dof) == std::array{0.0, 2.0});
 }

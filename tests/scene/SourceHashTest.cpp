@@ -111,3 +111,43 @@ TEST_CASE("a skin's table is stale when a muscle changed, not when a compliance 
     scene.muscles[0].muscle.maxContraction = 0.31;
     CHECK_THAT(staleness(scene, skin), Catch::StartsWith("the muscles' fibres or forms changed"));
 }
+
+TEST_CASE("a path's rows make a table stale by their last bit, and not by being read again") {
+    SceneModel scene;
+    samples::addBody(scene, "A");
+    samples::addBody(scene, "B");
+    Dof path;
+    path.kind = DofKind::Path;
+    path.name = "bend";
+    path.upper = 60;
+    for (int k = 0; k <= 60; ++k)
+        path.path.push_back({double(k), Vec3(0.1 * k, 0.7, 0),
+                             Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * k, Vec3(1, 2, 3).normalized()))});
+    Motion motion;
+    motion.dofs = {path};
+    addPair(scene, 0, 1, motion, "Knee");
+    const auto hash = [](const SceneModel& of) { return sourceHash(of, of.pairs[0]); };
+    const SceneModel once = samples::fromFile(scene);
+    CHECK(hash(samples::fromFile(once)) == hash(once));
+    const auto edited = [&](const auto& edit) {
+        SceneModel other = once;
+        edit(other.joints[0].dofs[0].path[7]);
+        return hash(samples::fromFile(other)) != hash(once);
+    };
+    CHECK(edited([](PathRow& row) { row.value = std::nextafter(row.value, 0); }));
+    CHECK(edited([](PathRow& row) { row.translation.x() = std::nextafter(row.translation.x(), 0); }));
+    CHECK(edited([](PathRow& row) {
+        row.rotation = row.rotation * Eigen::AngleAxisd(1e-12, Vec3::UnitX());
+    }));
+}
+
+TEST_CASE("a frame close to its body makes a table stale where the chain reaches far") {
+    SceneModel scene = samples::jaw();
+    scene.joints[0].frame0.translation() = Vec3(10000, 0, 0);
+    scene.joints[0].frame1.translation() = Vec3(0.25, 0, 0);
+    scene = samples::fromFile(scene);
+    scene.pairs[0].proof = std::make_shared<NeverCollides>();
+    scene.pairs[0].sourceHash = sourceHash(scene, scene.pairs[0]);
+    scene.joints[0].frame1.translation() = Vec3(0.2501, 0, 0);
+    CHECK(staleness(scene, scene.pairs[0]) == "the joint changed since its table was baked");
+}

@@ -1,4 +1,5 @@
 #include "bake/base/Error.h"
+#include "bake/base/NearestFloat.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneLayer.h"
 
@@ -55,6 +56,14 @@ TEST_CASE("rotateXYZ turns about X first") {
                          R"("xformOp:rotateXYZ": {"typeName": "float3", "default": [90, 0, 90]})"));
     CHECK((world(body)[1] - Vec3(0, 0, 1)).norm() < 1e-12); // y -> z by X, z stays by Z
     CHECK((world(body)[0] - Vec3(0, 1, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("points that a scale moves are floats, as those of files: what is hashed is what was baked") {
+    const Body body = meshUnder(
+        "", op(R"("xformOp:scale")", R"("xformOp:scale": {"typeName": "double3", "default": [1.1, -0.7, 1.3]})"));
+    for (const Vec3& vertex : world(body))
+        for (const double coordinate : vertex) CHECK(isFloat(coordinate));
+    CHECK((world(body)[0] - Vec3(1.1, 0, 0)).norm() < 1e-7);
 }
 
 TEST_CASE("a matrix is row by row, with the translation in its last row") {
