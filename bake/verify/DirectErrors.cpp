@@ -1,5 +1,6 @@
 #include "bake/table/TableKernels.h"
 #include "bake/verify/KernelErrors.h"
+#include "bake/verify/PoseBox.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +11,20 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
                         double farthest, double posed) {
     const bool single = prepared.precision() == KernelPrecision::Float;
     const double u = single ? 0x1p-24 : 0x1p-53;
-    const Vec3 b = test.b - prepared.kernels().originB(), a = test.a - prepared.kernels().originA();
-    const double storedA = (Vec3(row[3], row[4], row[5]) - a).norm() +
-                           0x1p-52 * (test.a.norm() + prepared.kernels().originA().norm());
-    const double storedB = (Vec3(row[0], row[1], row[2]) - b).norm() +
-                           0x1p-52 * (test.b.norm() + prepared.kernels().originB().norm());
+    const Vec3 &originA = prepared.kernels().originA(), &originB = prepared.kernels().originB();
+    const Vector a = test.a.cast<Real>() - originA.cast<Real>(), b = test.b.cast<Real>() - originB.cast<Real>();
+    const auto storedOff = [&](std::size_t column, const Vector& wanted, double size) {
+        const Vector stored(row[column], row[column + 1], row[column + 2]);
+        return double((stored - wanted).norm() + 4 * realRoundoff * size);
+    };
+    const double storedA = storedOff(3, a, test.a.norm() + originA.norm()),
+                 storedB = storedOff(0, b, test.b.norm() + originB.norm());
+    const double lengthA = double(a.norm()), lengthB = double(b.norm());
     const auto squareError = [&](double distance) {
-        const double t = std::min(farthest, a.norm() + b.norm() + distance);
+        const double t = std::min(farthest, lengthA + lengthB + distance);
         // The numbers of R and t, each rounded; t - a; three products and their sums, each rounded.
         const double vector =
-            storedA + storedB + posed + std::sqrt(3.0) * u * (4 * (t + a.norm()) + 6 * b.norm());
+            storedA + storedB + posed + std::sqrt(3.0) * u * (5 * t + 4 * lengthA + 5 * lengthB);
         const double far = distance + vector;
         return 2 * distance * vector + vector * vector + 4 * u * far * far;
     };
@@ -60,9 +65,11 @@ DirectPose::DirectPose(const Table& table, const PreparedTable& prepared, const 
     options.cells = CellUse::Never;
     const PreparedTable plain(table, options);
     for (const Exact& t : tests) reach_ = std::max(reach_, (t.b - plain.kernels().originB()).norm());
-    const double size =
-        pathSize(motion_, tests) + plain.kernels().originA().norm() + 2 * plain.kernels().originB().norm();
+    // The pose takes B's origin to its place, and turns what lies about it.
+    const double size = coordinateBound(motion_, plain.kernels().originB().norm()) +
+                        plain.kernels().originA().norm() + reach_;
     rounding_ = poseRounding(motion_, size, 0x1p-53);
+    farRounding_ = turnRounding(motion_, size, 0x1p-53);
     const bool paths = std::any_of(motion_.dofs.begin(), motion_.dofs.end(),
                                    [](const Dof& dof) { return dof.kind == DofKind::Path; });
     std::size_t count = 1;
@@ -89,7 +96,7 @@ DirectPose::DirectPose(const Table& table, const PreparedTable& prepared, const 
 bool DirectPose::agreesAt(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f) const {
     const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0;
     return poseOff(prepared, at, f, reach_) <=
-           rounding_ + 2 * u * (reach_ + prepared.kernels().farthestT()) * (1 + 1e-6) + 1e-300;
+           rounding_ + farRounding_ + 2 * u * (reach_ + prepared.kernels().farthestT()) * (1 + 1e-6) + 1e-300;
 }
 
 } // namespace tss::verify

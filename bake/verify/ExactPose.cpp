@@ -49,6 +49,13 @@ double poseRounding(const Motion& motion, double size, double u) {
     return (64 * double(motion.dofCount() + 2) * u + off) * size;
 }
 
+double turnRounding(const Motion& motion, double size, double u) {
+    double turned = 0;
+    for (const Dof& dof : motion.dofs)
+        if (dof.kind == DofKind::Rotation) turned += 0.5 * (dof.upper - dof.lower);
+    return 2 * u * turned * size;
+}
+
 std::vector<Exact> exactTests(const Table& table) {
     std::vector<Exact> all;
     for (const MeshTest& t : meshTests(table)) all.push_back({t.centreA, t.centreB, t.contactDistance});

@@ -26,6 +26,10 @@ ExactPose exactPose(const Motion& motion, const std::vector<Real>& q);
 /// bounds every coordinate on the way.
 double poseRounding(const Motion& motion, double size, double u);
 
+/// How far a point comes out of T(q) because how far each turn is from the middle of its limits is itself
+/// rounded: nothing beside poseRounding(), unless limits are many turns apart. size: as there.
+double turnRounding(const Motion& motion, double size, double u);
+
 /// One test as it stands in the table.
 struct Exact {
     Vec3 a, b;

@@ -135,6 +135,7 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared, co
         verdict.reason = fmt::format(
             "it may report contact {:.3g} scene units before the table does, more than its band of {:.3g}",
             verdict.early, prepared.signBand());
+    verdict.gapOff += turnRounding(table.motion, pathSize(table.motion, tests), 0x1p-53);
     if (verdict.reason.empty()) verdict.seen = tried(table, prepared, poses, direct, verdict.reason);
     if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
         verdict.reason = fmt::format("its gap was off by {:.3g} scene units at a pose, more than {:.3g}",

@@ -103,7 +103,7 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
 
 /// The direct kernel's pose at values where every DOF's polynomial is known by them: in double, because
 /// rounding to float is counted where the kernel reads. Of more DOFs, and of paths, nothing follows between
-/// the values, and what was tried has to do.
+/// the values, and what was tried has to do; there angles far from the middle of their limits round as well.
 class DirectPose {
 public:
     DirectPose(const Table& table, const PreparedTable& prepared, const std::vector<Exact>& tests);
@@ -117,7 +117,7 @@ public:
 
 private:
     const Motion& motion_;
-    double reach_ = 0, rounding_ = 0, worst_ = 0;
+    double reach_ = 0, rounding_ = 0, farRounding_ = 0, worst_ = 0;
 };
 
 } // namespace tss::verify

@@ -47,6 +47,41 @@ TEST_CASE("the kernels of random tables keep what they promise about rounding, i
     CHECK(directs > 100);
 }
 
+TEST_CASE("the kernels of bodies far from their axes, and of turns many times round, keep their promise too") {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        CAPTURE(seed);
+        random_table::Random random(seed);
+        const bool wide = seed % 2;
+        Motion motion = random_table::motion(random, wide ? 4 + int(random() % 4) : 1 + int(random() % 3), 1);
+        if (wide)
+            for (Dof& dof : motion.dofs) {
+                if (dof.kind != DofKind::Rotation) continue;
+                dof.upper = std::pow(10.0, random_table::between(random, 1, 4.5));
+                dof.lower = -0.5 * dof.upper;
+            }
+        Table table = random_table::table(random, motion, 6, 6, 1);
+        if (!wide) { // all of B moved along, and A after it
+            const Vec3 away = std::pow(10.0, random_table::between(random, 3, 5)) * random_table::direction(random);
+            for (std::size_t k = 0; k < table.b.size(); ++k) {
+                Sphere &a = table.a[k], &b = table.b[k];
+                b.centre += away;
+                const double apart = a.radius + b.radius + random_table::between(random, -0.01, 0.03);
+                a.centre = pose(motion, random_table::values(random, motion)) * b.centre +
+                           apart * random_table::direction(random);
+            }
+        }
+        const TriedPoses poses = posesToTry(table);
+        for (const PreparedTable& prepared : allForms(table)) {
+            const KernelVerdict verdict = verifyKernel(table, prepared, poses);
+            INFO(name(prepared.form()) << " " << name(prepared.precision()) << ": " << verdict.reason);
+            CHECK(verdict.proven);
+            Table moved = table;
+            for (Sphere& s : moved.b) s.centre.x() += 200 * prepared.signBand() + 1e-5;
+            CHECK_FALSE(verifyKernel(moved, prepared, posesToTry(moved)).proven);
+        }
+    }
+}
+
 TEST_CASE("tests that no touch is deep enough for say no contact early") {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
         CAPTURE(seed);
