@@ -121,21 +121,25 @@ std::vector<std::string> readOrder(const PrimReader& prim) {
 
 /// The cone of a spherical joint is read as a box that holds it, the angles about the two axes across: as the
 /// twist is free, either of them takes up the other's, so that both go as far as the wider. A cone of a right
-/// angle and more is none, nor is one about Y: that turn comes between the other two, which no box holds
-/// then.
-void readCone(const PrimReader& prim, const std::string& token, Dof& dof) {
-    const int axis = prim.choice(schema::axis)[0] - 'X', about = token.back() - 'X';
+/// angle and more is none, nor is one whose twist comes between the other two turns, as about Y where no order
+/// is given, or that a path is part of: no box holds it.
+void readCone(const PrimReader& prim, const std::string& token, const std::vector<std::string>& order,
+              Dof& dof) {
+    const std::string twist = "rot" + prim.choice(schema::axis);
+    const bool held = std::ranges::all_of(order, [](const auto& turn) { return turn.starts_with("rot"); }) &&
+                      !(order.size() == 3 && order[1] == twist);
     const double cone0 = prim.real(schema::coneAngle0, -1), cone1 = prim.real(schema::coneAngle1, -1);
     const double cone = std::max(cone0, cone1);
-    const bool limited = about != axis && axis != 1 && cone0 >= 0 && cone1 >= 0 && cone < 90;
+    const bool limited = token != twist && held && cone0 >= 0 && cone1 >= 0 && cone < 90;
     dof.lower = toRadians(limited ? -cone : -180);
     dof.upper = toRadians(limited ? cone : 180);
 }
 
-void readLimits(const PrimReader& prim, const DofSlots& slots, Dof& dof) {
+void readLimits(const PrimReader& prim, const DofSlots& slots, const std::vector<std::string>& order,
+                Dof& dof) {
     if (prim.prim().typeName == "PhysicsSphericalJoint" &&
         !hasApi(prim.prim(), "PhysicsLimitAPI:" + slots.token))
-        return readCone(prim, slots.token, dof);
+        return readCone(prim, slots.token, order, dof);
     double lower = prim.limit(slots.lowest(), -unlimited), upper = prim.limit(slots.highest(), unlimited);
     if (lower > upper) {
         prim.problem(slots.highest(), "expected at least the lower limit ", lower, ", found ", upper);
@@ -345,7 +349,7 @@ void readDofs(const PrimReader& prim, Joint& joint) {
         if (dof.kind == DofKind::Path)
             readPath(prim, paths, path, dof);
         else
-            readLimits(prim, slots, dof);
+            readLimits(prim, slots, order, dof);
         dof.name = names[k];
         dof.rest = restWithin(dof, dof.kind == DofKind::Rotation ? toRadians(rests[k]) : rests[k],
                               prim.has(restOfDofs));

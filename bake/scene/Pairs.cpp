@@ -133,6 +133,29 @@ void readPairs(SceneReading& reading) {
     });
 }
 
+void checkCarried(const SceneReading& reading) {
+    const SceneModel& scene = reading.scene;
+    const std::vector<int> moving = movers(scene);
+    const auto isSoft = [&](int body) {
+        const auto stands = [body](const auto& item) { return item.body == body; };
+        return std::ranges::any_of(scene.skins, stands) || std::ranges::any_of(scene.muscles, stands);
+    };
+    for (const auto& [path, body] : reading.bodyAt) {
+        if (scene.bodies[body].mesh.empty() || moving[body] >= 0 || isSoft(body)) continue;
+        for (int at = reading.index.find(path); at >= 0 && !resetsXformStack(reading.reader(at));) {
+            at = reading.index.entries[at].parent;
+            const auto carrier = reading.bodyAt.find(at < 0 ? "" : reading.index.entries[at].place.path);
+            if (carrier == reading.bodyAt.end() || moving[carrier->second] < 0) continue;
+            for (const Pair& pair : scene.pairs)
+                if (pair.bodyA == carrier->second || pair.bodyB == carrier->second)
+                    reading.reader(reading.index.find(pair.path))
+                        .problem("expected all of ", carrier->first, " in one mesh, or other meshes of it on "
+                                 "joints of their own, found ", path, " inside of it, which no joint moves");
+            break;
+        }
+    }
+}
+
 void writePair(Layer& layer, const SceneModel& scene, const Pair& pair) {
     const bool ofJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].path == pair.path;
     PrimWriter prim(makePrim(layer, pair.path, "Scope"));

@@ -92,6 +92,7 @@ SceneModel readScene(std::shared_ptr<const Layer> layer, Problems& problems) {
     readPairs(reading);
     readMuscles(reading);
     readSkins(reading);
+    checkCarried(reading);
     readTables(reading);
     reading.scene.layer = std::move(layer);
     return std::move(reading.scene);

@@ -68,6 +68,9 @@ void writePlanes(PrimWriter& prim, const Joint& joint);
 std::vector<SchemaType> jointSchemas();
 
 void readPairs(SceneReading& reading);
+/// A mesh inside of a body that a joint moves would stay behind, and pairs of that body know nothing of it: a
+/// problem of these, once skins and muscles are known, which follow by themselves.
+void checkCarried(const SceneReading& reading);
 /// Marks the pair's joint, or makes the prim that names its two bodies.
 void writePair(Layer& layer, const SceneModel& scene, const Pair& pair);
 /// The settings of a bake that a prim states; put in place of those that it had.
