@@ -55,6 +55,18 @@ bool isJoint(const Prim& prim) {
     return false;
 }
 
+bool changes(const Property& property) {
+    return property.timeSamples.size() + (property.defaultValue ? 1 : 0) > 1;
+}
+
+std::string changingOf(const Prim& joint) {
+    for (const auto& [name, property] : joint.properties) {
+        const bool ours = name.starts_with("tss:") && !name.starts_with("tss:drive:");
+        if (changes(property) && (ours || name.starts_with("physics:") || name.starts_with("limit:"))) return name;
+    }
+    return "";
+}
+
 std::string jointType(const Joint& joint) {
     if (joint.dofs.empty()) return "PhysicsFixedJoint";
     if (joint.dofs.size() > 1 || joint.dofs[0].kind == DofKind::Path) return "PhysicsJoint";

@@ -60,6 +60,33 @@ void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair
                          reading.scene.bodies[body].path);
 }
 
+/// What is proven of a pair is proven of one shape of its bodies and of one of its joints.
+bool checkStill(const SceneReading& reading, const Pair& pair) {
+    const auto fails = [&](int entry, std::string_view name) {
+        reading.problems.add(reading.index.entries[entry].place.property(name) / "timeSamples",
+                             "expected a value that stays as it is, for it is of a pair, found one that changes "
+                             "in time");
+        return false;
+    };
+    for (const int index : pair.joints) {
+        const int entry = reading.index.find(reading.scene.joints[index].path);
+        const std::string name = changingOf(*reading.index.entries[entry].prim);
+        if (!name.empty()) return fails(entry, name);
+    }
+    for (const int body : {pair.bodyA, pair.bodyB}) {
+        const int own = reading.index.find(reading.scene.bodies[body].path);
+        for (int entry = own; entry >= 0; entry = reading.index.entries[entry].parent) {
+            for (const auto& [name, property] : reading.index.entries[entry].prim->properties) {
+                const bool shape = name == "points" || name.starts_with("faceVertex") || name == "orientation";
+                if (changes(property) && ((shape && entry == own) || name.starts_with("xformOp:scale")))
+                    return fails(entry, name);
+            }
+            if (resetsXformStack(reading.reader(entry))) break;
+        }
+    }
+    return true;
+}
+
 /// Everything that a motion needs and that a joint alone may do without.
 bool checkPairMotion(const SceneReading& reading, const std::vector<int>& movers, const PrimReader& prim,
                      const Pair& pair) {
@@ -129,7 +156,7 @@ void readPairs(SceneReading& reading) {
                                                               : readBodiesOfPrim(reading, ways, prim, pair);
         if (!tied) return;
         checkMeshes(reading, prim, pair);
-        if (checkPairMotion(reading, moving, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
+        if (checkStill(reading, pair) && checkPairMotion(reading, moving, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
     });
 }
 

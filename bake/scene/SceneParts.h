@@ -56,6 +56,10 @@ void readJoints(SceneReading& reading);
 void writeJoints(Layer& layer, const SceneModel& scene);
 /// The prim is a joint that a pair's motion can be made from.
 bool isJoint(const Prim& prim);
+/// The property has a value by time that need not be the one that is read where time does not count.
+bool changes(const Property& property);
+/// A property of a joint, its desired motion apart, that is not the same at all times; empty when there is none.
+std::string changingOf(const Prim& joint);
 /// The DOFs, couplings and desired motion of a joint prim.
 void readDofs(const PrimReader& prim, Joint& joint);
 /// The same with limits; decides the type of its prim, jointType().

@@ -83,14 +83,6 @@ bool stack(Edge& edge, RobotJoint other) {
     return true;
 }
 
-/// Whether time samples give what the limits and frames of a joint are made from.
-bool changesInTime(const Prim& joint) {
-    return std::ranges::any_of(joint.properties, [](const auto& entry) {
-        const auto& [name, property] = entry;
-        return !property.timeSamples.empty() && (name.starts_with("physics:") || name.starts_with("limit:"));
-    });
-}
-
 /// The value of a DOF that has the child stand so in the joint's origin: the nearest to the middle of its
 /// limits, if any has.
 double valueAt(const Dof& dof, const Pose& child) {
@@ -128,7 +120,7 @@ private:
                        end1 = findEnd_(prim, prim.target(schema::body1));
         if (end0.link == end1.link)
             return leftOut_.add("left out: joints that tie a body to itself, or the world", path);
-        if (changesInTime(prim.prim()))
+        if (!changingOf(prim.prim()).empty())
             return leftOut_.add(
                 "left out: joints whose limits or frames change in time, which tie nothing here", path);
         const std::string& type = prim.prim().typeName;

@@ -420,3 +420,32 @@ TEST_CASE("the box of a cone of limits holds it in whatever order the turns are 
         }
     } while (std::next_permutation(order.begin(), order.end()));
 }
+
+TEST_CASE("a pair whose meshes or joints change in time is refused, for it is proven of what they are once") {
+    const SceneModel scene = samples::jaw();
+    const auto with = [&](const std::string& path, const std::string& name, const std::string& type,
+                          const Value& value, bool pairs = true) {
+        SceneModel of = scene;
+        if (!pairs) of.pairs.clear();
+        Layer layer = toLayer(of);
+        Property& property = findPrim(layer, path)->properties[name];
+        property.typeName = type;
+        if (!property.defaultValue) property.defaultValue = value;
+        property.timeSamples = {{0, value}, {24, value}};
+        return layer;
+    };
+    const Value point(Numbers{{0, 0, 0}, 3}), scale(Numbers{{1, 1, 1}, 3});
+    const auto refuses = [](const Layer& layer, const std::string& name) {
+        CHECK_THROWS_WITH(readScene(layer, "test.tss"),
+                          Catch::Contains(name + "/timeSamples") && Catch::Contains("changes in time"));
+    };
+    refuses(with("/Scene/B", "points", "point3f[]", point), "points");
+    refuses(with("/Scene", "xformOp:scale", "float3", scale), "xformOp:scale");
+    refuses(with("/Scene/Jaw", "physics:localPos1", "point3f", point), "physics:localPos1");
+    refuses(with("/Scene/Jaw", "limit:rotY:physics:high", "float", Value(1.0)), "limit:rotY:physics:high");
+    refuses(with("/Scene/Jaw", "tss:rest", "double[]", Value(Numbers{{0, 0}, 1})), "tss:rest");
+    CHECK_NOTHROW(readScene(with("/Scene/B", "points", "point3f[]", point, false), "test.tss"));
+    CHECK_NOTHROW(
+        readScene(with("/Scene/Jaw", "drive:rotY:physics:targetPosition", "float", Value(1.0)), "test.tss"));
+    CHECK_NOTHROW(readScene(with("/Scene/B", "xformOp:translate", "double3", point), "test.tss"));
+}
