@@ -21,15 +21,7 @@ double moveOf(const CellMotion& motion, const BallAbout& ball) {
 
 } // namespace
 
-Swept::Swept(const BallAbout& inB, const Motion& motion) {
-    const MotionRates rates(motion);
-    const CellMotion whole(rates, wholeBox(motion));
-    middle = whole.centrePose();
-    reach = moveOf(whole, inB);
-}
-
-bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion,
-             double margin) {
+bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion) {
     constexpr int most = 1000; // cells
     const MotionRates rates(motion);
     const double rounding = coordinateRounding(motion, a.extent(), b.extent());
@@ -41,9 +33,9 @@ bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const
         if (!shrinkToPlanes(motion, cell)) continue;
         const CellMotion within(rates, cell);
         const double move = moveOf(within, inB) + rounding;
-        const double distance = a.distanceTo(b, within.centrePose(), margin + move);
-        if (distance >= margin + move) continue;
-        if (distance <= margin || motion.dofs.empty()) return true;
+        const double distance = a.distanceTo(b, within.centrePose(), move);
+        if (distance >= move) continue;
+        if (distance <= 0 || motion.dofs.empty()) return true;
         const auto [lower, upper] = splitCell(rates, cell, widestDof(within, inB.centre, inB.radius));
         open.insert(open.end(), {lower, upper});
     }

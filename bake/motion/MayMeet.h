@@ -12,19 +12,8 @@ struct BallAbout {
     explicit BallAbout(const TriangleMesh& mesh);
 };
 
-/// Whether the surfaces of two bodies may come within `margin` of each other at some pose of
-/// the limits. False is certain; true where they do, or where that was not decided in a thousand
-/// cells of Q. inB: about B, in B's frame. margin: >= 0, scene units.
-bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion,
-             double margin);
-
-/// Bounds where B can be: its pose at the middle of all limits, and how far any of its points can move from
-/// there within them.
-struct Swept {
-    Pose middle;      ///< B to A
-    double reach = 0; ///< scene units
-
-    Swept(const BallAbout& inB, const Motion& motion);
-};
+/// Whether the surfaces of two bodies may touch at some pose of the limits. False is certain; true where they
+/// do, or where that was not decided in a thousand cells of Q. inB: about B, in B's frame.
+bool mayMeet(const MeshQuery& a, const MeshQuery& b, const BallAbout& inB, const Motion& motion);
 
 } // namespace tss

@@ -219,6 +219,14 @@ TEST_CASE("what comes after install is told of once, where it may touch a body o
         yard.root->addChild(slide);
         CHECK(told() == (far ? 0 : 1));
     }
+    SECTION("on a joint of its own below a joint, that carries it into the way or not") {
+        const bool far = GENERATE(true, false);
+        const auto slide = dof("Other");
+        slide->setMaxTranslate(osg::Vec3(0, far ? 2.f : 4.f, 0));
+        slide->addChild(box(osg::Vec3(3, 4.5f, 0)));
+        yard.arms[1]->addChild(slide);
+        CHECK(told() == (far ? 0 : 1));
+    }
     SECTION("on the screen") {
         osg::ref_ptr<osg::Camera> camera = new osg::Camera;
         camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
@@ -232,6 +240,7 @@ TEST_CASE("what comes after install is told of once, where it may touch a body o
         CHECK(told() == 0);
         group->setMatrix(osg::Matrixd::translate(0, -10, 0));
         CHECK(told() == 0);
+        CHECK(heard.times("stands elsewhere") == 0);
         group->setMatrix(osg::Matrixd::translate(0, -20, 0));
         told();
         CHECK(heard.times("transform \"Later\" stands elsewhere") == 1);

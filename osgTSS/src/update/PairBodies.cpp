@@ -13,64 +13,10 @@
 #include <osgTSS/JointTransform>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <set>
 
 namespace osgTSS {
 
-namespace {
-
-/// Nothing for what no joints lead to.
-std::optional<tss::Motion> motionBetween(const tss::SceneModel& model, int body, int other) {
-    tss::Pair pair;
-    pair.bodyA = body;
-    pair.bodyB = other;
-    const auto chain = tss::findChain(model.joints, body, other);
-    if (!chain || (chain->empty() && body != other)) return std::nullopt;
-    pair.joints = *chain;
-    return tss::pairMotion(model, pair);
-}
-
-/// A surface that stays within reach of where it stands here.
-struct Drawn {
-    tss::TriangleMesh mesh;
-    double reach = 0;
-};
-
-/// What is drawn at and below a node, in the frame of the body that it hangs in; joints of its own count by
-/// how far they carry.
-std::vector<Drawn> drawnAt(osg::Node& node, const osg::Matrixd& toBody, double scale) {
-    constexpr double everywhere = 1e300;
-    ConstraintVisitor visitor;
-    const tss::SceneModel& model = findQuietly(node, visitor);
-    const auto similarity = toSimilarity(toBody);
-    std::vector<Drawn> found;
-    for (std::size_t k = 0; k < model.bodies.size(); ++k) {
-        Drawn part{model.bodies[k].mesh};
-        if (part.mesh.empty()) continue;
-        tss::Pose place = tss::Pose::Identity();
-        try {
-            const auto motion = motionBetween(model, 0, static_cast<int>(k));
-            if (!motion) continue;
-            const tss::Swept swept(tss::BallAbout(part.mesh), *motion);
-            place = swept.middle;
-            if (!motion->dofs.empty())
-                part.reach = similarity ? swept.reach * std::abs(similarity->scale * scale) : everywhere;
-        } catch (const tss::InputError&) {
-            part.reach = everywhere; // more degrees of freedom than anything is known of
-        }
-        for (tss::Vec3& vertex : part.mesh.vertices)
-            vertex = scale * toCore(toOsg(tss::Vec3(place * vertex)) * toBody);
-        found.push_back(std::move(part));
-    }
-    return found;
-}
-
-} // namespace
-
-PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model)
-    : _root(root), _now(findQuietly(root, _visitor)) {
+PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model) : _now(findQuietly(root, _visitor)) {
     const auto& nodes = _visitor.getBodyNodes();
     std::vector<const tss::Joint*> movedBy(model.bodies.size(), nullptr);
     for (const tss::Joint& joint : model.joints)
@@ -122,41 +68,44 @@ bool PairBodies::isBelow(int body, osg::Node& node) const {
     return of && !pathsFrom(node, *of).empty();
 }
 
-bool PairBodies::separatedBy(osg::Node& node) const {
-    return std::ranges::any_of(
-        _pairs, [&](const auto& pair) { return isBelow(pair.first, node) != isBelow(pair.second, node); });
-}
-
-const PairBodies::Shape& PairBodies::shapeOf(int body) {
-    std::unique_ptr<Shape>& made = _shapes[body];
-    const tss::TriangleMesh& mesh = _now.bodies[body].mesh;
-    if (!made) made.reset(new Shape{tss::MeshQuery(mesh), tss::BallAbout(mesh)});
-    return *made;
-}
-
-/// surface: part of `body`, in its frame.
-bool PairBodies::meets(int body, int other, const tss::MeshQuery& surface, double margin) {
-    try {
-        const auto motion = motionBetween(_now, body, other);
-        const Shape& shape = shapeOf(other);
-        return motion && tss::mayMeet(surface, shape.surface, shape.ball, *motion, margin);
-    } catch (const tss::InputError&) {
-        return true; // of more degrees of freedom nothing is known
-    }
+/// part: of `body`, in its frame.
+bool PairBodies::meets(int body, const tss::TriangleMesh& part, const std::set<int>& others) {
+    if (part.empty()) return false;
+    const tss::MeshQuery surface(part);
+    return std::ranges::any_of(others, [&](int other) {
+        const auto chain = tss::findChain(_now.joints, body, other);
+        if (!chain || chain->empty()) return false;
+        tss::Pair pair;
+        pair.bodyA = body;
+        pair.bodyB = other;
+        pair.joints = *chain;
+        try {
+            const Shape& shape = _shapes.try_emplace(other, _now.bodies[other].mesh).first->second;
+            return tss::mayMeet(surface, shape.surface, shape.ball, tss::pairMotion(_now, pair));
+        } catch (const tss::InputError&) {
+            return true; // of more degrees of freedom nothing is known
+        }
+    });
 }
 
 bool PairBodies::mayBeMetBy(osg::Node& node, const osg::NodePath& above) {
+    std::set<int> others;
+    for (const auto& [a, b] : _pairs) {
+        if (isBelow(a, node) != isBelow(b, node)) return true;
+        others.insert({a, b});
+    }
     osg::Matrixd toBody;
     const int body = bodyAt(above, toBody);
-    std::set<int> others;
-    for (const auto& [a, b] : _pairs) others.insert({a, b});
     std::erase_if(others, [&](int other) { return other == body || isBelow(other, node); });
+    for (int own = 0; own < static_cast<int>(_now.bodies.size()); ++own)
+        if (isBelow(own, node) && meets(own, _now.bodies[own].mesh, others)) return true;
+    ConstraintVisitor visitor;
+    const std::vector<tss::Body>& found = findQuietly(node, visitor).bodies;
+    if (found.empty()) return false;
+    tss::TriangleMesh mesh = found[0].mesh; // which is part of the body that it hangs in
     const double scale = _visitor.getBodyNodes()[body].scale;
-    return std::ranges::any_of(drawnAt(node, toBody, scale), [&](const Drawn& part) {
-        const tss::MeshQuery surface(part.mesh);
-        return std::ranges::any_of(others,
-                                   [&](int other) { return meets(body, other, surface, part.reach); });
-    });
+    for (tss::Vec3& vertex : mesh.vertices) vertex = scale * toCore(toOsg(vertex) * toBody);
+    return meets(body, mesh, others);
 }
 
 } // namespace osgTSS

@@ -6,7 +6,7 @@
 #include <osgTSS/ConstraintVisitor>
 
 #include <map>
-#include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,32 +22,29 @@ public:
     /// Whether what hangs at the end of a path from the root is part of a body of a pair.
     bool hold(const osg::NodePath& path) const;
 
-    /// Whether the node carries one body of a pair and not the other.
-    bool separatedBy(osg::Node& node) const;
-
-    /// Whether what is drawn at and below a node, which hangs at the end of the path, may touch at some pose
-    /// a body of a pair that it is no part of and does not carry. What moves by itself, without being a
-    /// joint, no pair reaches, and is not looked at.
+    /// Whether a node, which hangs at the end of the path, carries one body of a pair and not the other, or
+    /// draws, itself and below, what may touch at some pose a body of a pair that it is no part of and does
+    /// not carry. What moves by itself, without being a joint, no pair reaches, and is not looked at.
     bool mayBeMetBy(osg::Node& node, const osg::NodePath& above);
 
 private:
     struct Shape {
         tss::MeshQuery surface;
         tss::BallAbout ball;
+
+        explicit Shape(const tss::TriangleMesh& mesh) : surface(mesh), ball(mesh) {}
     };
 
     int bodyAt(const osg::NodePath& path, osg::Matrixd& toBody) const;
     bool isNamed(int body, const std::string& path, const tss::Joint* movedBy) const;
     bool isBelow(int body, osg::Node& node) const;
-    bool meets(int body, int other, const tss::MeshQuery& surface, double margin);
-    const Shape& shapeOf(int body);
+    bool meets(int body, const tss::TriangleMesh& part, const std::set<int>& others);
 
-    osg::Node& _root;
     ConstraintVisitor _visitor;
     const tss::SceneModel& _now;
     std::map<const osg::Node*, int> _bodyOf;
     std::vector<std::pair<int, int>> _pairs; ///< bodies of the graph
-    std::map<int, std::unique_ptr<Shape>> _shapes;
+    std::map<int, Shape> _shapes;
 };
 
 } // namespace osgTSS

@@ -9,14 +9,11 @@
 #include <osg/AutoTransform>
 #include <osg/Camera>
 #include <osg/Geometry>
-#include <osg/NodeVisitor>
 #include <osg/PagedLOD>
 #include <osgAnimation/Bone>
 #include <osgAnimation/Skeleton>
 #include <osgTSS/Overlay>
 
-#include <algorithm>
-#include <functional>
 #include <set>
 #include <utility>
 
@@ -38,95 +35,93 @@ bool movesOtherwise(osg::Node& node) {
            dynamic_cast<osgAnimation::Skeleton*>(&node) || movesItself(node) || hasFlag(node, "osgTSS:moved");
 }
 
+unsigned int verticesOf(const osg::Node& node) {
+    const osg::Geometry* geometry = node.asGeometry();
+    return geometry && geometry->getVertexArray() ? geometry->getVertexArray()->getNumElements() : 0;
+}
+
+osg::Matrix placeOf(const osg::Node& transform) {
+    osg::Matrix matrix;
+    transform.asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
+    return matrix;
+}
+
+/// What osgTSS shows left out.
+std::vector<osg::Node*> childrenOf(osg::Node& node) {
+    std::vector<osg::Node*> children;
+    osg::Group* group = node.asGroup();
+    for (unsigned int k = 0; group && k < group->getNumChildren(); ++k)
+        if (!dynamic_cast<Overlay*>(group->getChild(k))) children.push_back(group->getChild(k));
+    return children;
+}
+
 } // namespace
 
 /// Machine by machine, which is all that joints hold together, and body by body of each.
-class StandingParts::Collect : public osg::NodeVisitor {
+class StandingParts::Collect {
 public:
-    Collect(StandingParts& into) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _into(into) {
-        setNodeMaskOverride(~0u);
-        collect([&] { into._root.accept(*this); });
-    }
-
-    void apply(osg::Node& node) override {
-        if (dynamic_cast<Overlay*>(&node) || !_seen.insert(&node).second) return;
-        look(node);
-    }
-    void apply(osg::PagedLOD&) override {}
-    void apply(osg::Drawable& drawable) override {
-        ++_body->items;
-        ++_body->drawn;
-        if (_seen.insert(&drawable).second) look(drawable);
-    }
-    void apply(osg::Transform& node) override {
-        if (!_seen.insert(&node).second) return;
-        if (isJoint(node)) {
-            _machine->served = _machine->served || carriesJoint(node);
-            ++_body->items;
-            Body own, *const above = std::exchange(_body, &own);
-            look(node);
-            for (const auto& [place, below] : own.fixed)
-                if (below > 0) _machine->parts.push_back(_machine->all[place]);
-            _body = above;
-        } else if (movesOtherwise(node)) {
-            collect([&] { look(node); });
-        } else {
-            const std::size_t before = _body->items, drawn = _body->drawn, place = _machine->all.size();
-            _machine->all.push_back({&node, true, _known, numberOf(node, true)});
-            look(node);
-            _machine->all[place].known = _known && _body->drawn > drawn;
-            _body->fixed.emplace_back(place, _body->items - before);
-        }
-    }
+    explicit Collect(StandingParts& into) : _into(into) { addMachine(into._root, true); }
 
 private:
-    struct Body {
-        std::size_t items = 0;                                  ///< drawables, and joints of others
-        std::size_t drawn = 0;                                  ///< drawables that tables know
-        std::vector<std::pair<std::size_t, std::size_t>> fixed; ///< places in `all`, and items below
-    };
     struct Machine {
-        bool served = false;     ///< tables or proofs are for some of its joints
-        std::vector<Part> all;   ///< its fixed transforms
-        std::vector<Part> parts; ///< what is looked at
+        bool served = false; ///< tables or proofs are for some of its joints
+        std::vector<Part> parts{};
     };
+    /// What of one body hangs at and below a node: drawables, and joints of others.
+    struct Held {
+        bool any = false, known = false;
+        std::vector<std::size_t> whole{}; ///< the transforms that carry all of it, as parts of the machine
 
-    void look(osg::Node& node) {
-        const bool above = std::exchange(_known, _known && !_into.cameSince(node));
-        Part part{&node, false, _known, numberOf(node, false)};
-        if (osg::Group* group = node.asGroup())
-            for (unsigned int k = 0; k < group->getNumChildren(); ++k) {
-                osg::Node& child = *group->getChild(k);
-                const std::size_t before = _body->drawn;
-                child.accept(*this);
-                const bool known = _known && !_into.cameSince(child);
-                part.children.emplace_back(&child, known && _body->drawn > before);
-            }
-        else
-            traverse(node);
-        _machine->parts.push_back(std::move(part));
-        _known = above;
-    }
+        void add(Held other) {
+            if (!other.any) return;
+            whole = any ? std::vector<std::size_t>() : std::move(other.whole);
+            any = true;
+            known = known || other.known;
+        }
+    };
 
     /// Of a machine it does not matter where it stands as a whole.
-    template <class Below>
-    void collect(const Below& below) {
-        Machine own, *const outer = std::exchange(_machine, &own);
-        Body top, *const above = std::exchange(_body, &top);
-        below();
-        _machine = outer;
-        _body = above;
-        if (!own.served) return;
-        for (const auto& [place, items] : top.fixed)
-            if (items > 0 && items < top.items) own.parts.push_back(own.all[place]);
-        _into._parts.insert(_into._parts.end(), own.parts.begin(), own.parts.end());
+    void addMachine(osg::Node& top, bool known) {
+        Machine outer = std::exchange(_machine, {});
+        for (std::size_t part : addNode(top, known).whole) _machine.parts[part].place.reset();
+        if (_machine.served) std::ranges::move(_machine.parts, std::back_inserter(_into._parts));
+        _machine = std::move(outer);
+    }
+
+    Held addBelow(osg::Node& node, bool known) {
+        if (dynamic_cast<osg::PagedLOD*>(&node)) return {};
+        known = known && !_into.cameSince(node);
+        const bool again = _seen.contains(&node);
+        if (again) return {node.asDrawable() != nullptr, node.asDrawable() && known};
+        if (!node.asTransform() || isJoint(node) || !movesOtherwise(node)) return addNode(node, known);
+        addMachine(node, known);
+        return {};
+    }
+
+    Held addNode(osg::Node& node, bool known) {
+        _seen.insert(&node);
+        Held held{node.asDrawable() != nullptr, node.asDrawable() && known};
+        Part part{&node, known, verticesOf(node)};
+        for (osg::Node* child : childrenOf(node)) {
+            Held below = addBelow(*child, known);
+            part.children.push_back({child, below.known});
+            held.add(std::move(below));
+        }
+        if (node.asTransform() && isJoint(node)) {
+            _machine.served = _machine.served || carriesJoint(node);
+            held = {true};
+        } else if (node.asTransform() && held.any) {
+            part.known = held.known;
+            part.place = placeOf(node);
+            held.whole.push_back(_machine.parts.size());
+        }
+        _machine.parts.push_back(std::move(part));
+        return held;
     }
 
     StandingParts& _into;
     std::set<const osg::Node*> _seen;
-    bool _known = true;
-    Body* _body = nullptr;
-    Machine* _machine = nullptr;
+    Machine _machine;
 };
 
 StandingParts::StandingParts(osg::Node& root, const tss::SceneModel& model) : _root(root), _model(model) {
@@ -138,56 +133,38 @@ bool StandingParts::cameSince(osg::Node& node) const {
     return found != _since.end() && found->second.valid();
 }
 
-std::size_t StandingParts::numberOf(const osg::Node& node, bool fixed) {
-    std::size_t number = 1;
-    const auto add = [&](auto value) { number = number * 31 + std::hash<decltype(value)>()(value); };
-    if (fixed) {
-        osg::Matrix matrix;
-        node.asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
-        std::for_each(matrix.ptr(), matrix.ptr() + 16, add);
-    } else if (const osg::Group* group = node.asGroup()) {
-        for (unsigned int k = 0; k < group->getNumChildren(); ++k)
-            if (!dynamic_cast<const Overlay*>(group->getChild(k))) add(group->getChild(k));
-    } else if (const osg::Geometry* geometry = node.asGeometry()) {
-        add(geometry->getVertexArray() ? geometry->getVertexArray()->getNumElements() : 0u);
-    }
-    return number;
-}
-
 /// What is gone is missed by the group that it was in.
-bool StandingParts::isOther(const Part& part) const {
-    return part.node.valid() &&
-           (numberOf(*part.node, part.fixed) != part.number ||
-            std::ranges::any_of(part.children, [](const auto& child) { return !child.first.valid(); }));
+bool StandingParts::isOther(const Part& part) {
+    osg::Node* node = part.node.get();
+    if (!node) return false;
+    const auto same = [](const Child& was, const osg::Node* is) { return was.node.get() == is; };
+    return verticesOf(*node) != part.vertices || (part.place && placeOf(*node) != *part.place) ||
+           !std::ranges::equal(part.children, childrenOf(*node), same);
 }
 
-/// Of a group: what is new below it, or gone.
-bool StandingParts::childConcerns(const Part& part, const osg::NodePath& path, PairBodies& bodies) {
-    osg::Group& group = *part.node->asGroup();
-    for (const auto& [child, known] : part.children)
-        if (known && !group.containsNode(child.get()) && bodies.hold(path)) return true;
-    for (unsigned int k = 0; k < group.getNumChildren(); ++k) {
-        osg::Node& child = *group.getChild(k);
-        const auto same = [&](const auto& was) { return was.first.get() == &child; };
-        if (dynamic_cast<Overlay*>(&child) || std::ranges::any_of(part.children, same)) continue;
-        if (bodies.separatedBy(child) || bodies.mayBeMetBy(child, path)) return true;
-        _since[&child] = &child;
-    }
-    return false;
-}
-
-/// Says what has come to a body of a pair; empty: nothing has.
+/// Empty: nothing.
 std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
-    const std::string geometry = "the geometry at node \"" + part.node->getName() + "\" is other than";
-    for (const osg::NodePath& path : pathsFrom(_root, *part.node)) {
-        const osg::NodePath above(path.begin(), path.end() - 1);
-        if (part.node->asGroup() && !part.fixed) {
-            if (childConcerns(part, path, bodies)) return geometry;
-            continue;
+    osg::Node& node = *part.node;
+    const std::vector<osg::Node*> children = childrenOf(node);
+    const std::string geometry = "the geometry at node \"" + node.getName() + "\" is other than";
+    for (const osg::NodePath& path : pathsFrom(_root, node)) {
+        const bool moved = part.place && placeOf(node) != *part.place;
+        if (moved || verticesOf(node) != part.vertices) {
+            const osg::NodePath above(path.begin(), path.end() - 1);
+            if ((part.known && bodies.hold(path)) || bodies.mayBeMetBy(node, above))
+                return moved ? "transform \"" + node.getName() + "\" stands elsewhere than" : geometry;
         }
-        const bool carried = part.fixed && bodies.separatedBy(*part.node);
-        if (carried || (part.known && bodies.hold(path)) || bodies.mayBeMetBy(*part.node, above))
-            return part.fixed ? "transform \"" + part.node->getName() + "\" stands elsewhere than" : geometry;
+        for (const Child& was : part.children)
+            if (was.known && std::ranges::find(children, was.node.get()) == children.end() &&
+                bodies.hold(path))
+                return geometry;
+        for (osg::Node* child : children) {
+            if (std::ranges::find(part.children, child, [](const Child& was) { return was.node.get(); }) !=
+                part.children.end())
+                continue;
+            if (bodies.mayBeMetBy(*child, path)) return geometry;
+            _since[child] = child;
+        }
     }
     return "";
 }
@@ -211,7 +188,6 @@ std::optional<std::string> StandingParts::changed() {
         _parts.clear();
         return what;
     }
-    // From here on what is there now is what was there, but for what tables do not know.
     _parts.clear();
     _next = 0;
     _pause = calls;
