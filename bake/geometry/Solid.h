@@ -5,15 +5,6 @@
 
 namespace tss {
 
-/// Triangles that close the openings of a mesh: over each connected set of edges that triangles do not run
-/// through equally often in both directions, a cone to the mean of its vertices. With them every mesh, also a
-/// misoriented or non-manifold one and a soup of triangles, has an integer winding number off its surface.
-/// Edges that lie on each other to 1e-6 of the mesh's diagonal are no opening, whether or not they share
-/// vertices: seams that were not welded, T-junctions. Between those that do to a hundredth of their own
-/// length, cracks, are strips in place of a cone. Vertices of the mesh first, one apex an opening after them;
-/// the triangles are the fans' alone.
-TriangleMesh closingFans(const TriangleMesh& mesh);
-
 /// What an open mesh stands for.
 enum class Interior {
     Filled, ///< the body behind it, as far as closing fans over its openings

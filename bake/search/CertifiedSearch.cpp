@@ -208,15 +208,11 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
         return result;
     }
     ConcurrentPairs known(a.size(), b.size());
-    if (options.sampleFirst) {
-        SampledSearchOptions sampling;
-        sampling.samples = 1024;
-        sampling.rule = rule;
-        const Progress asked = [&](std::string_view, double) {
-            return report(progress, "certified search", 0);
-        };
-        for (const SpherePair& pair : searchSampled(a, b, motion, sampling, asked).pairs) known.insert(pair);
-    }
+    SampledSearchOptions sampling; // pairs that touch at sampled poses need no search
+    sampling.samples = 1024;
+    sampling.rule = rule;
+    const Progress asked = [&](std::string_view, double) { return report(progress, "certified search", 0); };
+    for (const SpherePair& pair : searchSampled(a, b, motion, sampling, asked).pairs) known.insert(pair);
     const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
                                       1e-9 * (treeA[0].radius + treeB[0].radius));
     const std::uint64_t effort = effortOfPart(options.effort);

@@ -9,7 +9,6 @@ struct CertifiedSearchOptions {
     double tolerance = -1; ///< tau: no pair is listed whose gap stays above margin + tau; < 0: a hundredth of
                            ///< the mean radius
     ContactRule rule;      ///< of these spheres
-    bool sampleFirst = true;      ///< find pairs that touch at sampled poses first, which need no search then
     bool measureClearance = true; ///< when nothing collides, find out how far apart the bodies stay
     /// The search gives up, not certified, after about so many looks at pairs of tree nodes (about a million
     /// a second and thread); 0: never. The same result every time.

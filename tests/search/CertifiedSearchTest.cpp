@@ -86,7 +86,6 @@ TEST_CASE("a search ends where no number is left between the limits of a cell") 
         motion.dofs = {turn};
         motion.base = dofPose(turn, last).inverse() * Eigen::Translation3d(2 + k * 8e-7, 0, 0);
         CertifiedSearchOptions options;
-        options.sampleFirst = false; // samples would find the last angle first
         options.tolerance = 0;
         const auto found = searchCertified(a, b, motion, options);
         CHECK(found.certified);
