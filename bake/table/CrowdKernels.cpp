@@ -34,41 +34,9 @@ void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::
     }
 }
 
-template <class Form>
-void gaps(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count, float* gap,
-          std::int32_t* test) {
-    using D = typename Form::D;
-    using T = hn::TFromD<D>;
-    const D d;
-    const hn::RebindToSigned<D> di;
-    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
-    const T* end = static_cast<const T*>(rows.end);
-    HWY_ALIGN hwy::MakeSigned<T> tests[hn::MaxLanes(d)];
-    HWY_ALIGN T least[hn::MaxLanes(d)];
-    for (std::uint32_t i = 0; i < count; i += n) {
-        V<D> p[Form::values + 1];
-        for (std::uint32_t k = 0; k <= Form::values; ++k)
-            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
-        Nearest<D> nearest{farthest<D>(), hn::BitCast(d, hn::Set(di, -1))};
-        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns) {
-            const BroadcastColumn<D> column{row};
-            nearest.take(gapOf<Form>(p, column), column(Form::contactDistance + 1));
-        }
-        hn::Store(nearest.gap, d, least);
-        hn::Store(hn::BitCast(di, nearest.number), di, tests);
-        for (std::uint32_t k = 0; k < n; ++k) {
-            gap[i + k] = static_cast<float>(least[k]);
-            test[i + k] = static_cast<std::int32_t>(tests[k]);
-        }
-    }
-}
-
 template <class D>
 void crowdIn(const KernelShape& shape, KernelSet& set) {
-    withForm<D>(shape, [&](auto form) {
-        set.hits = hits<decltype(form)>;
-        set.gaps = gaps<decltype(form)>;
-    });
+    withForm<D>(shape, [&](auto form) { set.hits = hits<decltype(form)>; });
 }
 template <class T>
 void crowd(const KernelShape& shape, KernelSet& set) {

@@ -62,9 +62,6 @@ struct KernelSet {
     /// rounded up to 16; so much is written, too. hit: 1 or 0.
     void (*hits)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
                  std::uint8_t* hit) = nullptr;
-    /// Smallest gap and its test, likewise.
-    void (*gaps)(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
-                 float* gap, std::int32_t* test) = nullptr;
 
     /// What FeatureForm::evaluate (PoseRecipe::evaluate after a 0, for direct) makes of a plan for it
     /// (PosePlan.h). q: one value per DOF. pose: room for TableFeatures::room values. Null in the scalar

@@ -83,10 +83,6 @@ void PreparedTable::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
     kernels_->hits(f, hit);
 }
 
-void PreparedTable::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
-    kernels_->gaps(f, gap, test);
-}
-
 std::size_t PreparedTable::testCount() const {
     return kernels_->testCount();
 }

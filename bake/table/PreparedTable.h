@@ -106,8 +106,6 @@ public:
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
     /// hit[i] = 1 where instance i touches, else 0. hit: room for f.count.
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
-    /// Smallest gap and its test of every instance.
-    void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
 
     std::size_t testCount() const;
     std::size_t testRoom() const;

@@ -70,27 +70,4 @@ void TableKernels::hits(const InstanceFeatures& f, std::uint8_t* hit) const {
     std::copy_n(last, rest, hit + whole);
 }
 
-void TableKernels::gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const {
-    if (!clusters_.empty()) {
-        for (std::uint32_t i = 0; i < f.count; ++i) {
-            const KernelGap nearest = nearestInClusters(featuresOf(f, i, float_));
-            gap[i] = static_cast<float>(nearest.gap);
-            test[i] = nearest.test;
-        }
-        return;
-    }
-    const std::uint32_t whole = f.count / vectorRoom * vectorRoom, rest = f.count - whole;
-    const auto run = [&](std::uint32_t first, std::uint32_t count, float* outGap, std::int32_t* outTest) {
-        if (count == 0) return;
-        const void* poses = float_ ? static_cast<const void*>(from(f.floats, first)) : from(f.doubles, first);
-        kernels_.gaps(rows_, poses, f.stride, count, outGap, outTest);
-    };
-    run(0, whole, gap, test);
-    float lastGap[vectorRoom];
-    std::int32_t lastTest[vectorRoom];
-    run(whole, rest, lastGap, lastTest);
-    std::copy_n(lastGap, rest, gap + whole);
-    std::copy_n(lastTest, rest, test + whole);
-}
-
 } // namespace tss

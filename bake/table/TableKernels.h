@@ -45,7 +45,6 @@ public:
 
     void instanceFeatures(const double* q, std::uint32_t count, InstanceFeatures& out) const;
     void hits(const InstanceFeatures& f, std::uint8_t* hit) const;
-    void gaps(const InstanceFeatures& f, float* gap, std::int32_t* test) const;
 
     /// B to A in as many configurations from where their bodies are: of the direct form without cells only,
     /// as the next.
@@ -73,7 +72,6 @@ public:
     KernelTarget target() const { return target_; }
     /// Features a pose has: columns without the constant and the shared term; 12 for direct.
     std::size_t featureCount() const { return fold_ ? fold_->features.size() : 12; }
-    bool hasShared() const { return fold_ && !fold_->sharedFeatures.empty(); }
     std::size_t bytes() const;
 
     double signBand() const { return signBand_; }
