@@ -33,11 +33,9 @@ double between(std::mt19937_64& random, double lower, double upper) {
 
 class MechanismQuery::Prepared {
 public:
-    Prepared(const SceneModel& scene, const std::vector<int>& order);
+    explicit Prepared(const SceneModel& scene);
     std::size_t valueCount() const { return lower_.size(); }
     const std::vector<int>& unanswered() const { return unanswered_; }
-    std::vector<int> order() const;
-    std::size_t provenCount() const { return parts_.size() - tables_.size(); }
     MechanismWorkspace workspace() const;
     MechanismAnswer ask(const double* values, MechanismWorkspace& ws) const;
     void ask(const double* values, std::size_t count, MechanismAnswer* answers, MechanismWorkspace& ws) const;
@@ -92,8 +90,7 @@ private:
     std::vector<int> unanswered_;
 };
 
-MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<int>& order)
-    : bodyCount_(scene.bodies.size()) {
+MechanismQuery::Prepared::Prepared(const SceneModel& scene) : bodyCount_(scene.bodies.size()) {
     checkIndices(scene);
     std::vector<int> chained, withTable;
     for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k) {
@@ -110,12 +107,6 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
     lower_.assign(count, -std::numeric_limits<double>::infinity());
     upper_.assign(count, std::numeric_limits<double>::infinity());
 
-    if (!order.empty()) {
-        std::vector<int> sorted = order;
-        std::ranges::sort(sorted);
-        if (sorted != withTable) throw InputError("order: expected each pair that has a table, once");
-        withTable = order;
-    }
     for (const int k : withTable) {
         parts_.push_back(partOf(scene, k));
         addTable(scene, static_cast<std::uint32_t>(parts_.size() - 1));
@@ -131,7 +122,7 @@ MechanismQuery::Prepared::Prepared(const SceneModel& scene, const std::vector<in
             upper_[part.values[k]] = std::min(upper_[part.values[k]], dof.upper + slack);
         }
     }
-    if (order.empty()) findOrder();
+    findOrder();
 }
 
 MechanismQuery::Prepared::Part MechanismQuery::Prepared::partOf(const SceneModel& scene, int pair) const {
@@ -199,12 +190,6 @@ void MechanismQuery::Prepared::findOrder() {
         std::rotate(at(next), at(best), at(best) + 1);
         for (std::size_t i = 0; i < samples; ++i) open[i] = open[i] && !(*at(next))[i];
     }
-}
-
-std::vector<int> MechanismQuery::Prepared::order() const {
-    std::vector<int> pairs;
-    for (const Asked& asked : tables_) pairs.push_back(parts_[asked.part].pair);
-    return pairs;
 }
 
 MechanismWorkspace MechanismQuery::Prepared::workspace() const {
@@ -324,8 +309,8 @@ void MechanismQuery::Prepared::askPlaced(Lanes& lanes, MechanismWorkspace& ws) c
     }
 }
 
-MechanismQuery::MechanismQuery(const SceneModel& scene, const std::vector<int>& order)
-    : prepared_(std::make_unique<const Prepared>(scene, order)) {}
+MechanismQuery::MechanismQuery(const SceneModel& scene)
+    : prepared_(std::make_unique<const Prepared>(scene)) {}
 MechanismQuery::MechanismQuery(MechanismQuery&&) noexcept = default;
 MechanismQuery& MechanismQuery::operator=(MechanismQuery&&) noexcept = default;
 MechanismQuery::~MechanismQuery() = default;
@@ -336,14 +321,6 @@ std::size_t MechanismQuery::valueCount() const {
 
 const std::vector<int>& MechanismQuery::unanswered() const {
     return prepared_->unanswered();
-}
-
-std::vector<int> MechanismQuery::order() const {
-    return prepared_->order();
-}
-
-std::size_t MechanismQuery::provenCount() const {
-    return prepared_->provenCount();
 }
 
 MechanismWorkspace MechanismQuery::workspace() const {

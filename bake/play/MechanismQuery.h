@@ -37,10 +37,9 @@ struct MechanismWorkspace {
 class MechanismQuery {
 public:
     /// Tables and proofs are taken to be those of this scene as it is (staleness()); pairs without either are
-    /// left out, see unanswered(). order: indices of pairs with a table, all of them, to be asked in that
-    /// order. Throws InputError for a table that does not fit its joints, and for indices beyond the scene's
-    /// bodies and joints.
-    explicit MechanismQuery(const SceneModel& scene, const std::vector<int>& order = {});
+    /// left out, see unanswered(). Throws InputError for a table that does not fit its joints, and for
+    /// indices beyond the scene's bodies and joints.
+    explicit MechanismQuery(const SceneModel& scene);
     MechanismQuery(MechanismQuery&&) noexcept;
     MechanismQuery& operator=(MechanismQuery&&) noexcept;
     ~MechanismQuery();
@@ -50,10 +49,6 @@ public:
     std::size_t valueCount() const;
     /// Pairs that have neither table nor proof.
     const std::vector<int>& unanswered() const;
-    /// The pairs with a table in the order in which they are asked.
-    std::vector<int> order() const;
-    /// Pairs that are proven never to meet.
-    std::size_t provenCount() const;
 
     MechanismWorkspace workspace() const;
 

@@ -224,7 +224,8 @@ void timeAnswers(const SceneModel& scene, const Judge& judge, const MechanismQue
         "a configuration of all of it: {:.0f} ns, of many at once {:.0f} ns ({:.2f} times as quick, {} "
         "differ); {} of {} touch\n",
         took[0], took[1], took[0] / took[1], differ, touching, timed);
-    for (const int k : query.order()) {
+    for (int k = 0; k < static_cast<int>(scene.pairs.size()); ++k) {
+        if (!scene.pairs[k].table) continue;
         const auto named = std::count_if(one.begin(), one.end(),
                                          [&](const MechanismAnswer& answer) { return answer.pair == k; });
         const Table& table = *scene.pairs[k].table;
@@ -318,8 +319,8 @@ int main(int argc, char** argv) {
     const auto start = std::chrono::steady_clock::now();
     const MechanismQuery query(scene);
     const std::chrono::duration<double> prepared = std::chrono::steady_clock::now() - start;
-    fmt::print("{} tables, {} proofs, {} pairs without; prepared in {:.2f} s\n", query.order().size(),
-               query.provenCount(), query.unanswered().size(), prepared.count());
+    fmt::print("{} pairs, {} of them without table and proof; prepared in {:.2f} s\n", scene.pairs.size(),
+               query.unanswered().size(), prepared.count());
 
     timeAnswers(scene, judge, query);
 #ifdef OSGTSS_VAMP
