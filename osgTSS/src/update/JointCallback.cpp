@@ -264,18 +264,6 @@ void JointCallback::setPairPaths(std::vector<std::string> paths) {
     _bindings->clear();
 }
 
-std::vector<JointCallback::Answer> JointCallback::getAnswers(const osg::Node& node) const {
-    std::vector<Answer> answers;
-    const Binding* binding = _bindings->find(node);
-    for (std::size_t g = 0; binding && g < binding->found.size(); ++g) {
-        const tss::JointAnswer& found = binding->found[g];
-        const std::string path =
-            found.table < 0 ? "" : binding->model->pairs[(*binding->plan)->groups[g].pairs[found.table]].path;
-        answers.push_back({found.status, found.gap, path, found.test});
-    }
-    return answers;
-}
-
 void JointCallback::start(osg::Node& node) {
     _bindings->erase(node);
     if (_scene) bindingOf(node);

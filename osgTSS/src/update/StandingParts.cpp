@@ -89,16 +89,15 @@ private:
     }
 
     Held addBelow(osg::Node& node, bool known) {
-        if (dynamic_cast<osg::PagedLOD*>(&node)) return {};
         known = known && !_into.cameSince(node);
-        const bool again = _seen.contains(&node);
-        if (again) return {node.asDrawable() != nullptr, node.asDrawable() && known};
+        if (_seen.contains(&node)) return {node.asDrawable() != nullptr, node.asDrawable() && known};
         if (!node.asTransform() || isJoint(node) || !movesOtherwise(node)) return addNode(node, known);
         addMachine(node, known);
         return {};
     }
 
     Held addNode(osg::Node& node, bool known) {
+        if (dynamic_cast<osg::PagedLOD*>(&node)) return {};
         _seen.insert(&node);
         Held held{node.asDrawable() != nullptr, node.asDrawable() && known};
         Part part{&node, known, verticesOf(node)};
