@@ -162,7 +162,7 @@ void findPeriodicDofs(JointModel& model) {
 
 } // namespace
 
-JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bool prepare) {
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount) {
     if (dofCount < 0 || dofCount > static_cast<int>(maxDofs))
         throw InputError("joint: expected at most " + std::to_string(maxDofs) + " DOFs, not " +
                          std::to_string(dofCount));
@@ -177,7 +177,7 @@ JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bo
     for (const TableOnJoint& entry : tables) {
         checkFit(entry, dofCount);
         addTable(entry, model);
-        if (prepare) prepareGroup(*entry.table, model);
+        prepareGroup(*entry.table, model);
         const JointModel::Group& group = model.groups.back();
         if (!group.clustered) model.unclusteredPairs += group.lastPair - group.firstPair;
         model.leastContactOffset = std::min(model.leastContactOffset, group.contactOffset);
@@ -271,17 +271,11 @@ void cullMore(const JointModel& model, const DofValues& q, const DofValues& trav
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
         const JointModel::Group& group = model.groups[g];
         if (group.clustered) continue;
-        if (group.prepared) {
-            const std::uint32_t found = findWithin(model, group, q, travel, ws);
-            if (found == 0) continue;
-            placeGroup(model, g, q, travel, ws);
-            for (std::uint32_t i = 0; i < found; ++i)
-                addIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, travel, ws);
-        } else {
-            placeGroup(model, g, q, travel, ws);
-            for (std::uint32_t p = group.firstPair; p < group.lastPair; ++p)
-                addIfNear(model, p, ws.groups[g].frame.pose, travel, ws);
-        }
+        const std::uint32_t found = findWithin(model, group, q, travel, ws);
+        if (found == 0) continue;
+        placeGroup(model, g, q, travel, ws);
+        for (std::uint32_t i = 0; i < found; ++i)
+            addIfNear(model, group.firstPair + ws.found[i], ws.groups[g].frame.pose, travel, ws);
     }
 }
 
@@ -291,11 +285,9 @@ QueryResult nearestTest(const JointModel& model, std::size_t g, const DofValues&
     for (std::size_t k = 0; k < group.dofs.size(); ++k) at[k] = q[group.dofs[k]];
     const Pose place = pose(group.motion, {at.data(), group.dofs.size()});
     const DofValues own = valuesOf(model, group, q);
-    bool usesKernels = group.prepared != nullptr;
     for (std::size_t k = 0; k < group.dofs.size(); ++k)
-        usesKernels =
-            usesKernels && own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper;
-    if (!usesKernels) return query(*group.tests, place);
+        if (!(own[k] >= group.motion.dofs[k].lower && own[k] <= group.motion.dofs[k].upper))
+            return query(*group.tests, place);
     const TableGap guess = group.prepared->gap(own.data());
     // A test that can never touch, its contact distance being below 0, is left out by testsWithin().
     if (guess.test < 0 || (*group.tests)[std::size_t(guess.test)].contactDistance < 0)

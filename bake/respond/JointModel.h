@@ -33,8 +33,7 @@ struct JointModel {
         std::uint32_t firstPair = 0,
                       lastPair = 0; ///< range in `pairs`: one pair per test, in the tests' order
         std::shared_ptr<const TableTests> tests;
-        std::shared_ptr<const PreparedTable> prepared; ///< vector kernels for culling; null: all pairs are
-                                                       ///< gone through
+        std::shared_ptr<const PreparedTable> prepared; ///< vector kernels for culling
         int chain = -1;         ///< index in `chains` of one that begins with the motion's DOFs; -1: none
         bool clustered = false; ///< the table is so large that it is in clusters (METHOD 4): its near pairs
                                 ///< are listed for one straight way at a time, with `tree`
@@ -86,8 +85,7 @@ struct JointModel {
 
 /// Throws InputError where the tables do not fit one joint: an index that is none, limits without overlap,
 /// more than maxDofs DOFs.
-/// prepare: make the vector kernels to cull with, worth it for more than one response.
-JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount, bool prepare);
+JointModel makeJointModel(std::span<const TableOnJoint> tables, int dofCount);
 
 /// A pair that may come into contact on a way, and the constraint on it: gap >= threshold. A way is a
 /// straight line in joint space, gone through in unit time.
@@ -248,8 +246,8 @@ double shareOfRange(const JointModel& model, const DofValues& step);
 /// Smallest level of all pairs of the model at q; infinity where there are none.
 double smallestLevel(const JointModel& model, const DofValues& q, ResponseBuffers& ws);
 
-/// The nearest test of one table at q, with the same bits as query() over all tests. Where the table is
-/// prepared and q within its limits only the few tests within the kernels' rounding are evaluated exactly.
+/// The nearest test of one table at q, with the same bits as query() over all tests. Where q is within its
+/// limits only the few tests within the kernels' rounding are evaluated exactly.
 QueryResult nearestTest(const JointModel& model, std::size_t group, const DofValues& q, ResponseBuffers& ws);
 
 /// Adds limits and planes as rows in the unknowns y = w (q + step - goal). trust: share of its range by which

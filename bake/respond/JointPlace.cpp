@@ -10,8 +10,7 @@ ResponseBuffers buffersFor(const JointModel& model) {
     ws.near.resize(model.unclusteredPairs);
     ws.active.resize(model.unclusteredPairs);
     std::size_t room = 0;
-    for (const JointModel::Group& group : model.groups)
-        if (group.prepared) room = std::max(room, group.prepared->testRoom());
+    for (const JointModel::Group& group : model.groups) room = std::max(room, group.prepared->testRoom());
     ws.found.resize(room);
     ws.rows = QpRows(model.unclusteredPairs + 2 * std::size_t(model.dofCount) + model.planes.size());
     ws.groups.resize(model.groups.size());

@@ -104,7 +104,7 @@ bool walk(const JointModel& model, const DofValues& goal, Legs legs, DofValues& 
 /// The implementation of a responder.
 class JointResponder::Prepared {
 public:
-    Prepared(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation);
+    Prepared(std::span<const TableOnJoint> tables, int dofCount);
     JointAnswer respond(const double* last, const double* asked, ResponseBuffers& ws) const;
     const JointModel& model() const { return model_; }
     const DofValues* freePose() const { return hasFreePose_ ? &freePose_ : nullptr; }
@@ -123,12 +123,11 @@ private:
     double knownDepth_ = 0; ///< least gapDepth of the tables
 };
 
-JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dofCount,
-                                   Preparation preparation)
-    : model_(makeJointModel(tables, dofCount, preparation == Preparation::Fully)) {
+JointResponder::Prepared::Prepared(std::span<const TableOnJoint> tables, int dofCount)
+    : model_(makeJointModel(tables, dofCount)) {
     knownDepth_ = infinity;
     for (const TableOnJoint& entry : tables) knownDepth_ = std::min(knownDepth_, entry.table->gapDepth);
-    if (preparation == Preparation::Fully) findFreePose();
+    findFreePose();
 }
 
 void JointResponder::Prepared::findFreePose() {
@@ -289,12 +288,12 @@ std::span<const std::uint8_t> JointWorkspace::held() const {
     return room_->held;
 }
 
-JointResponder::JointResponder(const Table& table, Preparation preparation)
-    : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)}, static_cast<int>(table.motion.dofCount()),
-                     preparation) {}
+JointResponder::JointResponder(const Table& table)
+    : JointResponder(std::vector<TableOnJoint>{wholeJoint(table)},
+                     static_cast<int>(table.motion.dofCount())) {}
 
-JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount, Preparation preparation)
-    : prepared_(std::make_unique<const Prepared>(tables, dofCount, preparation)) {}
+JointResponder::JointResponder(std::span<const TableOnJoint> tables, int dofCount)
+    : prepared_(std::make_unique<const Prepared>(tables, dofCount)) {}
 
 JointResponder::JointResponder(JointResponder&&) noexcept = default;
 JointResponder& JointResponder::operator=(JointResponder&&) noexcept = default;

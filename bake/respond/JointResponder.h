@@ -43,9 +43,10 @@ private:
 };
 
 /// What keeps a joint out of collision at run time: everything a response needs, prepared once from the
-/// tables on the joint (METHOD 5). Immutable; one responder serves any number of threads and instances, each
-/// thread with a workspace of its own. A response locks nothing and throws nothing, and allocates nothing but
-/// where tables over many DOFs are in clusters: the workspace grows then to what came near at the worst.
+/// tables on the joint (METHOD 5), in some milliseconds. Immutable; one responder serves any number of
+/// threads and instances, each thread with a workspace of its own. A response locks nothing and throws
+/// nothing, and allocates nothing but where tables over many DOFs are in clusters: the workspace grows then
+/// to what came near at the worst.
 ///
 /// Of a free start it promises: the result is free by the exact query of each table (gap > 0), so is every
 /// pose on the way there, and it is no farther from the asked pose (as the limits clamp it) than the start,
@@ -53,16 +54,11 @@ private:
 /// whole turn has no end: it goes the shorter way round, over where its limits meet too.
 class JointResponder {
 public:
-    /// Fully: with vector kernels and a free pose to return to, some milliseconds of preparation. Once: for
-    /// a single response, without them.
-    enum class Preparation { Fully, Once };
-
     /// A joint with one table; the joint's values are those of its motion.
-    explicit JointResponder(const Table& table, Preparation preparation = Preparation::Fully);
+    explicit JointResponder(const Table& table);
 
     /// A joint that several tables constrain; dofCount values. Throws InputError where they do not fit.
-    JointResponder(std::span<const TableOnJoint> tables, int dofCount,
-                   Preparation preparation = Preparation::Fully);
+    JointResponder(std::span<const TableOnJoint> tables, int dofCount);
 
     JointResponder(JointResponder&&) noexcept;
     JointResponder& operator=(JointResponder&&) noexcept;

@@ -154,9 +154,9 @@ std::vector<double> nearItself(Random& random, const JointModel& model, const Mo
 
 TEST_CASE("what is not listed for a way stays away from contact all along it") {
     const Chain chain(9);
-    const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
+    const JointModel model = makeJointModel(chain.onJoint, links - 1);
     REQUIRE(model.clustered);
-    REQUIRE(model.unclusteredPairs > 0);               // tables of both kinds
+    REQUIRE(model.unclusteredPairs > 0);       // tables of both kinds
     REQUIRE(model.chains.size() == links - 2); // of each link that a table begins with
     ResponseBuffers kept = buffersFor(model);
     Random random(10);
@@ -217,7 +217,7 @@ TEST_CASE("what is not listed for a way stays away from contact all along it") {
 TEST_CASE(
     "what comes near of tables that are asked whole has room beside what is kept of those in clusters") {
     const Chain chain(9);
-    const JointModel model = makeJointModel(chain.onJoint, links - 1, true);
+    const JointModel model = makeJointModel(chain.onJoint, links - 1);
     ResponseBuffers ws = buffersFor(model);
     ws.clearNear();
     ws.nearCount = ws.near.size(); // full of what is kept
@@ -276,7 +276,7 @@ TEST_CASE("a slide over a wide range lists no more of a table in clusters than i
     for (std::uint32_t i = 0; i < a.size(); ++i)
         for (std::uint32_t j = 0; j < b.size(); ++j) all.push_back({i, j});
     const Table table = makeTable(a, b, all, {}, motion);
-    const JointModel model = makeJointModel(std::vector<TableOnJoint>{{&table, {0, 1, 2, 3}}}, 4, true);
+    const JointModel model = makeJointModel(std::vector<TableOnJoint>{{&table, {0, 1, 2, 3}}}, 4);
     REQUIRE(model.clustered);
     ResponseBuffers ws = buffersFor(model);
     ws.clearNear();
@@ -318,14 +318,13 @@ TEST_CASE("the nearest test of a table is the plain query's, to the bit") {
             for (const SpherePair& test : tests(table))
                 table.restGaps.push_back(-table.a[test.a].radius - table.b[test.b].radius - 0.01);
         }
-        const JointResponder once(table, JointResponder::Preparation::Once), fully(table);
-        JointWorkspace room = fully.workspace(), onceRoom = once.workspace();
+        const JointResponder responder(table);
+        JointWorkspace room = responder.workspace();
         for (int i = 0; i < 40; ++i) {
             std::vector<double> q = random_table::values(random, table.motion);
             if (i % 8 == 0) q[0] = table.motion.dofs[0].upper;
             if (i % 8 == 1) q[0] = table.motion.dofs[0].upper + 0.3; // beyond
-            check(table, q, fully, room);
-            check(table, q, once, onceRoom);
+            check(table, q, responder, room);
         }
     }
     CHECK(clustered > 10);

@@ -10,10 +10,10 @@ TEST_CASE("what a small step slides to is a local optimum") {
     for (std::uint64_t seed = 1; seed <= 250; ++seed) {
         Random random(seed);
         const Table table = random_table::anyTable(random);
-        const JointResponder responder(table, JointResponder::Preparation::Once);
-        JointWorkspace ws = responder.workspace();
         std::vector<double> q = random_table::values(random, table.motion);
         if (query(table, q).hit()) continue;
+        const JointResponder responder(table);
+        JointWorkspace ws = responder.workspace();
         // Pulled in small steps towards one pose after another, as a hand would.
         std::vector<double> hand = q;
         for (int step = 0; step < 60; ++step) {

@@ -67,7 +67,7 @@ TEST_CASE("a coarse table on the same value does not push a joint out of an exac
 
 TEST_CASE("of a joint that is not free some table held it, of a free one none") {
     int stopped = 0;
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         Random random(seed);
         const Table table = random_table::anyTable(random);
         Table other = table; // the same motion, a test the less, coarser
@@ -75,7 +75,7 @@ TEST_CASE("of a joint that is not free some table held it, of a free one none") 
         std::vector<int> dofs(table.motion.dofCount());
         for (std::size_t k = 0; k < dofs.size(); ++k) dofs[k] = static_cast<int>(k);
         const JointResponder responder(std::vector<TableOnJoint>{{&table, dofs}, {&other, dofs}},
-                                       static_cast<int>(dofs.size()), JointResponder::Preparation::Once);
+                                       static_cast<int>(dofs.size()));
         JointWorkspace ws = responder.workspace();
         std::vector<double> q = random_table::values(random, table.motion), hand = q;
         for (int step = 0; step < 60; ++step) {
@@ -91,7 +91,7 @@ TEST_CASE("of a joint that is not free some table held it, of a free one none") 
             REQUIRE(held);
         }
     }
-    CHECK(stopped > 500);
+    CHECK(stopped > 150);
 }
 
 TEST_CASE("a joint of a whole turn goes on over where its limits meet") {
