@@ -79,6 +79,24 @@ char upAxisOf(const WholeSceneArguments& arguments) {
     return all ? 'Y' : 'Z';
 }
 
+/// Bodies that no joint moves stand still, each on the first of them: what moves is paired with all.
+void fixStanding(Robot& robot) {
+    int first = -1;
+    for (int link = 0; link < static_cast<int>(robot.links.size()); ++link) {
+        if (std::ranges::find(robot.joints, link, &RobotJoint::child) != robot.joints.end()) continue;
+        if (first < 0) {
+            first = link;
+            continue;
+        }
+        RobotJoint joint;
+        joint.name = robot.links[link].name + "_still";
+        joint.where = "--body " + robot.links[link].name;
+        joint.parent = first;
+        joint.child = link;
+        robot.joints.push_back(std::move(joint));
+    }
+}
+
 Robot robotOf(const WholeSceneArguments& arguments) {
     Robot robot;
     robot.name = std::filesystem::path(arguments.output).stem().string();
@@ -102,6 +120,7 @@ Robot robotOf(const WholeSceneArguments& arguments) {
         robot.joints.push_back(std::move(joint));
     }
     moveLinks(robot, arguments.offsets);
+    fixStanding(robot);
     settleRobot(robot);
     return robot;
 }

@@ -62,6 +62,23 @@ TEST_CASE("bodies, joints, a muscle and a skin are a scene that moves") {
     CHECK(some.bodies[some.skins[0].bones[0]].path == "/some/shank");
 }
 
+TEST_CASE("a body that no joint moves stands still, and what moves is paired with it too") {
+    const Folder folder;
+    writeLimb(folder);
+    const Ran ran = runTss("make -o limb.tss --body upper.obj --body shank=lower.obj --body foot.obj "
+                           "--joint 'knee=upper,shank:rot:2.05,0,0:0,1,0:-10:60' --skin hide.obj",
+                           folder.path());
+    INFO(ran.err);
+    REQUIRE(ran.exit == 0);
+    CHECK((ran.out + ran.err).find("foot_still: fixed") != std::string::npos);
+    const tss::SceneModel scene = tss::loadScene(folder / "limb.tss");
+    REQUIRE(scene.pairs.size() == 2);
+    for (const tss::Pair& pair : scene.pairs) {
+        const int shank = scene.bodies[pair.bodyA].path == "/limb/shank" ? pair.bodyA : pair.bodyB;
+        CHECK(scene.bodies[shank].path == "/limb/shank");
+    }
+}
+
 TEST_CASE("a muscle from one body to another lies between both") {
     const Folder folder;
     writeLimb(folder);
