@@ -36,23 +36,6 @@ public:
         for (int column = 0; column < 3; ++column) add(Vec3(pose.linear().col(column)));
         return add(Vec3(pose.translation()));
     }
-    /// To its last bit: a chain of frames far from each other loses what a float of it loses.
-    PartHash& addExactly(const Vec3& vector) {
-        for (const double part : vector) add(part + 0.0); // both zeros are one
-        return *this;
-    }
-    PartHash& addExactly(const Pose& pose) {
-        for (int column = 0; column < 3; ++column) addExactly(Vec3(pose.linear().col(column)));
-        return addExactly(Vec3(pose.translation()));
-    }
-    PartHash& add(const Dof& dof) {
-        add(std::uint64_t(dof.kind)).add(dof.origin).add(dof.axis).add(dof.frame).add(dof.rest);
-        for (const PathRow& row : dof.path) {
-            add(row.value).addExactly(row.translation);
-            for (const double part : row.rotation.coeffs()) add(part + 0.0);
-        }
-        return *this;
-    }
     PartHash& add(const TriangleMesh& mesh) {
         add(std::uint64_t(mesh.vertices.size())).add(std::uint64_t(mesh.triangles.size()));
         for (const Vec3& vertex : mesh.vertices) add(vertex);
@@ -70,24 +53,16 @@ private:
     Sha256 hash_;
 };
 
-/// How a pair's bodies hang together: each joint of its chain by itself, and the way that it is crossed.
-std::string chainHash(const SceneModel& scene, const Pair& pair) {
-    PartHash hash;
-    int body = pair.bodyA;
-    for (const int index : pair.joints) {
-        const Joint& joint = scene.joints[index];
-        const bool backwards = joint.body0 != body;
-        hash.add(std::uint64_t(backwards)).addExactly(joint.frame0).addExactly(joint.frame1);
-        for (const Dof& dof : joint.dofs) hash.add(dof);
-        body = backwards ? joint.body0 : joint.body1;
-    }
-    return hash.text();
-}
-
 std::string framesHash(const Motion& motion) {
     PartHash hash;
     hash.add(motion.base);
-    for (const Dof& dof : motion.dofs) hash.add(dof);
+    for (const Dof& dof : motion.dofs) {
+        hash.add(std::uint64_t(dof.kind)).add(dof.origin).add(dof.axis).add(dof.frame).add(dof.rest);
+        for (const PathRow& row : dof.path) {
+            hash.add(row.value).add(row.translation);
+            for (double part : row.rotation.coeffs()) hash.addFloat(part);
+        }
+    }
     return hash.text();
 }
 
@@ -167,9 +142,10 @@ void refuse(const std::string& why, const std::string& path, const std::string& 
 } // namespace
 
 std::string sourceHash(const SceneModel& scene, const Pair& pair) {
+    const Motion motion = pairMotion(scene, pair);
     return joined({PartHash().add(scene.bodies[pair.bodyA].mesh).text(),
-                   PartHash().add(scene.bodies[pair.bodyB].mesh).text(), chainHash(scene, pair),
-                   limitsHash(pairMotion(scene, pair)), PartHash().add(pair.settings).text()});
+                   PartHash().add(scene.bodies[pair.bodyB].mesh).text(), framesHash(motion),
+                   limitsHash(motion), PartHash().add(pair.settings).text()});
 }
 
 std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {

@@ -2,7 +2,6 @@
 // says of them now. They are no part of this repository.
 #include "bake/base/Error.h"
 #include "bake/check/VerifyPair.h"
-#include "bake/model/SourceHash.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
 #include "bake/verify/Kernel.h"
@@ -26,13 +25,6 @@ std::string file(const std::string& name) {
         return;                                                                                              \
     }
 
-/// They were baked when hashes were made otherwise: what matters here is what the table itself says.
-SceneModel loadFresh(const std::string& name) {
-    SceneModel scene = loadScene(file(name));
-    scene.pairs[0].sourceHash = sourceHash(scene, scene.pairs[0]);
-    return scene;
-}
-
 /// Where the meshes meet and the table, or the proof, says that they do not; nothing where none is found.
 std::optional<std::vector<double>> missed(const SceneModel& scene, const Pair& pair) {
     const GroundTruth truth(scene.bodies[pair.bodyA].mesh, scene.bodies[pair.bodyB].mesh);
@@ -46,7 +38,7 @@ std::optional<std::vector<double>> missed(const SceneModel& scene, const Pair& p
 
 void holdsWithEveryKernel(const std::string& name) {
     CAPTURE(name);
-    const SceneModel scene = loadFresh(name);
+    const SceneModel scene = loadScene(file(name));
     const PairVerdict verdict = verifyPair(scene, scene.pairs[0]);
     INFO(verdict.reason);
     CHECK(verdict.holds());
@@ -78,7 +70,7 @@ TEST_CASE("tables whose file says what is not so are refused with a pose") {
     for (const char* name : {"re__shrink_and_count.tss", "rn__miss0_cov0.tss"}) {
         REQUIRE_COUNTEREXAMPLE(name);
         CAPTURE(name);
-        const SceneModel scene = loadFresh(name);
+        const SceneModel scene = loadScene(file(name));
         const Pair& pair = scene.pairs[0];
         const PairVerdict verdict = verifyPair(scene, pair);
         CHECK_FALSE(verdict.holds());
