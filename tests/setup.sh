@@ -11,11 +11,11 @@ packages_build=(
     libopenscenegraph-dev libegl-dev
     libeigen3-dev libassimp-dev libminizip-dev nlohmann-json3-dev
     libtbb-dev libhwy-dev libcli11-dev libfmt-dev zlib1g-dev
-    libtinyxml2-dev
+    liburdfdom-dev liburdfdom-headers-dev libtinyxml2-dev
 )
 packages_pictures=(openscenegraph xvfb xauth libgl1-mesa-dri libegl-mesa0)
 packages_report=(libfcl-dev libbullet-dev libcgal-dev libpng-dev gnuplot-nox)
-packages_tests=(catch2 libfcl-dev libmujoco-dev liburdfdom-dev liburdfdom-headers-dev parallel help2man)
+packages_tests=(catch2 libfcl-dev libmujoco-dev parallel help2man)
 packages_api=(doxygen)
 packages_fuzz=(clang libclang-rt-14-dev)
 packages_browser=(chromium)

@@ -1,12 +1,12 @@
 #include "bake/robot/ReadRobot.h"
+
+#include "bake/robot/UrdfText.h"
 #include "bake/robot/Xml.h"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
+#include <console_bridge/console.h>
 #include <map>
 #include <numbers>
-#include <set>
+#include <urdf_parser/urdf_parser.h>
 
 namespace tss {
 
@@ -14,311 +14,166 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-Vec3 vectorOf(const std::vector<double>& n, const Vec3& fallback) {
-    return n.empty() ? fallback : Vec3(n[0], n[1], n[2]);
+/// Keeps what urdfdom says, instead of printing it.
+class UrdfdomMessages : public console_bridge::OutputHandler {
+public:
+    UrdfdomMessages() { console_bridge::useOutputHandler(this); }
+    ~UrdfdomMessages() override { console_bridge::restorePreviousOutputHandler(); }
+    UrdfdomMessages(const UrdfdomMessages&) = delete;
+    UrdfdomMessages& operator=(const UrdfdomMessages&) = delete;
+    void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) all += (all.empty() ? "" : "; ") + text;
+    }
+    std::string all;
+};
+
+urdf::ModelInterfaceSharedPtr parse(const XMLElement& top, const std::string& file) {
+    UrdfdomMessages messages;
+    std::string thrown;
+    try {
+        if (auto model = urdf::parseURDF(urdfText(top))) return model;
+    } catch (const std::exception& error) {
+        thrown = error.what();
+    }
+    throw InputError(Where{file}, "is no URDF that can be read: " + messages.all + thrown);
 }
 
-/// About x, then y, then z, none of which turns along.
-Eigen::Quaterniond turnOf(const Vec3& rpy) {
-    const double sr = std::sin(rpy[0] / 2), cr = std::cos(rpy[0] / 2), sp = std::sin(rpy[1] / 2),
-                 cp = std::cos(rpy[1] / 2), sy = std::sin(rpy[2] / 2), cy = std::cos(rpy[2] / 2);
-    const double x = sr * cp * cy - cr * sp * sy, y = cr * sp * cy + sr * cp * sy,
-                 z = cr * cp * sy - sr * sp * cy, w = cr * cp * cy + sr * sp * sy;
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    return {w / length, x / length, y / length, z / length};
+Vec3 vector(const urdf::Vector3& v) {
+    return {v.x, v.y, v.z};
 }
 
-/// What is said of a joint that is left out; `child`: the link that it holds, empty where there is none.
-std::string leftOutJoint(const std::string& joint, const std::string& where, const std::string& why,
-                         const std::string& child) {
-    const std::string left = "joint " + joint + " (" + where + ") " + why + ": left out";
-    return child.empty() ? left : left + ", " + child + " and what hangs on it are tied to nothing";
+Pose poseOf(const urdf::Pose& p) {
+    Pose pose = Pose::Identity();
+    pose.linear() = Eigen::Quaterniond(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)
+                        .normalized()
+                        .toRotationMatrix();
+    // Exact where it turns nothing.
+    if (p.rotation.x == 0 && p.rotation.y == 0 && p.rotation.z == 0) pose.linear().setIdentity();
+    pose.translation() = vector(p.position);
+    return pose;
 }
 
 class UrdfReader {
 public:
-    UrdfReader(const XMLElement& top, const std::string& file, Robot& robot)
-        : top_(top), file_(file), robot_(robot) {
-        static const std::set<std::string> versions = {"1", "1.0", "1.1", "1.2"};
-        const std::string version = textOf(top, "version", "1.0");
-        if (!versions.contains(version))
-            throw InputError(placeOf(file, top),
-                             "version: expected 1.0, 1.1 or 1.2, found \"" + version + "\"");
-        robot.name = textOf(top, "name");
-        if (robot.name.empty()) robot.name = std::filesystem::path(file).stem().string();
-        for (const std::string& name : namesOf("link")) robot.links.emplace_back().name = name;
-        for (std::size_t k = 0; k < robot.links.size(); ++k) index_[robot.links[k].name] = int(k);
-        namesOf("joint");
-        if (robot.links.empty()) throw InputError(placeOf(file, top), "expected at least one <link>");
-        each("link", [&](const XMLElement& link) { readLink(link); });
-        noteRoots();
-        each("joint", [&](const XMLElement& joint) { readJoint(joint); });
-        checkForest(robot);
-        placeLinks();
-        leaveOut();
+    UrdfReader(const XMLElement& top, const std::string& file, Robot& robot) : file_(file), robot_(robot) {
+        for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) nameLink(*e);
+        for (auto* e = top.FirstChildElement("joint"); e; e = e->NextSiblingElement("joint")) nameJoint(*e);
+        checkForest(robot); // what urdfdom makes of a loop is never freed
+        model_ = parse(top, file);
+        robot.name = model_->getName();
+        for (auto* e = top.FirstChildElement("link"); e; e = e->NextSiblingElement("link")) readLink(*e);
+        std::vector<RobotJoint> named;
+        named.swap(robot.joints);
+        for (RobotJoint& joint : named) readJoint(std::move(joint));
     }
 
 private:
-    template <class Visit>
-    void each(const char* kind, const Visit& visit) const {
-        for (auto* e = top_.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) visit(*e);
-    }
-
-    std::vector<std::string> namesOf(const char* kind) const {
-        std::vector<std::string> names;
-        std::set<std::string> seen;
-        each(kind, [&](const XMLElement& element) {
-            expectAttributes(element, {"name"});
-            names.push_back(textOf(element, "name"));
-            if (!seen.insert(names.back()).second)
-                throw InputError(placeOf(file_, element),
-                                 std::string("expected a name that no other ") + kind + " has");
-        });
-        return names;
-    }
-
-    void expectAttributes(const XMLElement& element, std::initializer_list<const char*> names) const {
-        for (const char* name : names)
-            if (textOf(element, name).empty())
-                throw InputError(placeOf(file_, element), std::string("expected an attribute ") + name);
-    }
-
-    std::vector<double> numbers(const XMLElement& element, const char* attribute, std::size_t count) const {
-        return numbersOf(file_, element, attribute, count, count);
-    }
-    double number(const XMLElement& element, const char* attribute, double fallback) const {
-        const auto found = numbers(element, attribute, 1);
-        return found.empty() ? fallback : found[0];
-    }
-
-    /// Where the origin of a joint, a visual or a collision puts it.
-    Pose originOf(const XMLElement& element) const {
-        Pose pose = Pose::Identity();
-        const XMLElement* origin = element.FirstChildElement("origin");
-        if (!origin) return pose;
-        const auto q = numbers(*origin, "quat_xyzw", 4); // of URDF 1.1
-        if (!q.empty() && origin->Attribute("rpy"))
-            throw InputError(placeOf(file_, *origin), "expected one of rpy and quat_xyzw, found both");
-        if (!q.empty() && !(Eigen::Vector4d(q.data()).norm() > 0))
-            throw InputError(placeOf(file_, *origin), "quat_xyzw: expected one that is not zero");
-        pose.translation() = vectorOf(numbers(*origin, "xyz", 3), Vec3::Zero());
-        const Eigen::Quaterniond turn = q.empty() ? turnOf(vectorOf(numbers(*origin, "rpy", 3), Vec3::Zero()))
-                                                  : Eigen::Quaterniond(q[3], q[0], q[1], q[2]);
-        // Exact where it turns nothing.
-        if (!turn.vec().isZero(0)) pose.linear() = turn.normalized().toRotationMatrix();
-        return pose;
-    }
-
-    /// The one shape of a visual or collision, which has what its kind needs; null where there is none.
-    const XMLElement* shapeIn(const XMLElement& item) const {
-        static const std::set<std::string_view> kinds = {"box", "cylinder", "sphere", "mesh", "capsule"};
-        const XMLElement* geometry = item.FirstChildElement("geometry");
-        const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
-        for (const XMLElement* one = shape; one; one = one->NextSiblingElement())
-            if (!kinds.contains(one->Name()))
-                throw InputError(placeOf(file_, *one),
-                                 std::string("a shape <") + one->Name() + "> is none of URDF's");
-        if (geometry && geometry->NextSiblingElement("geometry"))
-            throw InputError(placeOf(file_, item), "expected one <geometry>");
-        if (shape && shape->NextSiblingElement())
-            throw InputError(placeOf(file_, *shape->NextSiblingElement()),
-                             "expected one shape in a <geometry>");
-        return shape;
-    }
-
-    /// Nothing where there is none; one with a problem where it cannot be read.
-    std::optional<RobotShape> readShape(const XMLElement& item) const {
+    RobotShape readShape(const urdf::Geometry& geometry, const urdf::Pose& origin,
+                         const XMLElement& element) const {
         RobotShape shape;
-        try {
-            const XMLElement* found = shapeIn(item);
-            shape.place = originOf(item);
-            if (!found) return std::nullopt;
-            shape.where = placeOf(file_, *found).pointer;
-            const std::string_view kind = found->Name();
-            if (kind == "mesh") {
-                expectAttributes(*found, {"filename"});
-                shape.file = textOf(*found, "filename");
-                shape.size = vectorOf(numbers(*found, "scale", 3), Vec3::Ones());
-            } else if (kind == "box") {
-                expectAttributes(*found, {"size"});
-                shape.kind = RobotShape::Kind::Box;
-                shape.size = vectorOf(numbers(*found, "size", 3), Vec3::Zero());
-            } else if (kind == "sphere") {
-                expectAttributes(*found, {"radius"});
-                shape.kind = RobotShape::Kind::Sphere;
-                shape.size = {number(*found, "radius", 0), 0, 0};
-            } else { // a capsule as Bullet and Drake have it
-                expectAttributes(*found, {"radius", "length"});
-                shape.kind = kind == "capsule" ? RobotShape::Kind::Capsule : RobotShape::Kind::Cylinder;
-                shape.size = {number(*found, "radius", 0), number(*found, "length", 0), 0};
-            }
-        } catch (const InputError& error) {
-            shape = {};
-            shape.where = error.where.pointer;
-            shape.problem = error.message;
+        shape.place = poseOf(origin);
+        shape.where = placeOf(file_, element).pointer;
+        if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Box;
+            shape.size = vector(box->dim);
+        } else if (const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Cylinder;
+            shape.size = {cylinder->radius, cylinder->length, 0};
+        } else if (const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry)) {
+            shape.kind = RobotShape::Kind::Sphere;
+            shape.size = {sphere->radius, 0, 0};
+        } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&geometry)) {
+            shape.size = vector(mesh->scale);
+            shape.file = mesh->filename;
         }
         return shape;
     }
 
-    void readLink(const XMLElement& element) {
-        RobotLink& link = robot_.links[index_.at(textOf(element, "name"))];
-        for (auto* item = element.FirstChildElement(); item; item = item->NextSiblingElement()) {
-            const bool visual = item->Name() == std::string_view("visual");
-            if (!visual && item->Name() != std::string_view("collision")) continue;
-            const std::optional<RobotShape> shape = readShape(*item);
-            if (!shape) continue;
-            (visual ? link.visual : link.collision).push_back(*shape);
-            if (visual && shape->problem.empty() && !link.color) link.color = colorOf(*item);
+    /// The urdfdom array holds those elements that are left in the tree, in their order.
+    template <class Items>
+    std::vector<RobotShape> readShapes(const XMLElement& link, const char* kind, const Items& items) const {
+        std::vector<RobotShape> shapes;
+        auto* element = link.FirstChildElement(kind);
+        for (const auto& item : items) {
+            while (element && !element->FirstChildElement("geometry"))
+                element = element->NextSiblingElement(kind);
+            if (!element || !item || !item->geometry) continue;
+            const XMLElement* shape = element->FirstChildElement("geometry")->FirstChildElement();
+            shapes.push_back(readShape(*item->geometry, item->origin, shape ? *shape : *element));
+            element = element->NextSiblingElement(kind);
         }
+        return shapes;
     }
 
-    /// Linear RGB.
-    std::optional<Vec3> colorOf(const XMLElement& visual) const {
-        const auto linear = [](double c) { return std::pow(std::min(1.0, std::max(0.0, c)), 2.2); };
-        const XMLElement* material = visual.FirstChildElement("material");
-        if (!material) return std::nullopt;
-        const XMLElement* color = material->FirstChildElement("color");
-        each("material", [&](const XMLElement& one) {
-            if (!color && textOf(one, "name") == textOf(*material, "name"))
-                color = one.FirstChildElement("color");
-        });
-        if (!color) return std::nullopt;
-        try {
-            const auto rgba = numbers(*color, "rgba", 4);
-            if (!rgba.empty()) return Vec3(linear(rgba[0]), linear(rgba[1]), linear(rgba[2]));
-        } catch (const InputError&) { // no collision depends on it
-        }
-        return std::nullopt;
+    void nameLink(const XMLElement& element) {
+        RobotLink link;
+        link.name = textOf(element, "name");
+        index_[link.name] = static_cast<int>(robot_.links.size());
+        robot_.links.push_back(std::move(link));
     }
 
-    /// Links that no joint holds, but for the first.
-    void noteRoots() {
-        std::set<std::string> held;
-        each("joint", [&](const XMLElement& joint) {
-            if (const XMLElement* child = joint.FirstChildElement("child"))
-                held.insert(textOf(*child, "link"));
-        });
-        bool first = true;
-        for (const RobotLink& link : robot_.links) {
-            if (held.contains(link.name)) continue;
-            if (!first)
-                robot_.notes.push_back("link " + link.name +
-                                       " hangs on no joint: tied to nothing, as is what hangs on it");
-            first = false;
-        }
-    }
-
-    void readJoint(const XMLElement& element) {
+    void nameJoint(const XMLElement& element) {
         RobotJoint joint;
         joint.name = textOf(element, "name");
         joint.where = placeOf(file_, element).pointer;
-        std::string unused; // why it is no joint of a scene
-        try {
-            joint.origin = originOf(element);
-            // What a fixed joint has no use for, exporters write all the same, as an axis of zeros.
-            const std::string type = textOf(element, "type");
-            const Dof dof = type == "fixed" ? Dof() : readDof(element, joint);
-            joint.parent = linkAt(element, "parent");
-            joint.child = linkAt(element, "child");
-            checkJoint(element, type);
-            if (type == "planar" || type == "floating")
-                unused = "is " + type + ", without limits";
-            else if (type != "fixed" && dof.lower > dof.upper)
-                unused = "has a lower limit above its upper one";
-            else if (type != "fixed")
-                joint.dofs.push_back(dof);
-        } catch (const InputError& error) {
-            const XMLElement* child = element.FirstChildElement("child");
-            const std::string name = child ? textOf(*child, "link") : "";
-            robot_.notes.push_back(leftOutJoint(joint.name, error.where.pointer,
-                                                "cannot be read (" + error.message + ")",
-                                                index_.contains(name) ? name : ""));
-            return;
+        joint.parent = index_.at(textOf(*element.FirstChildElement("parent"), "link"));
+        joint.child = index_.at(textOf(*element.FirstChildElement("child"), "link"));
+        robot_.joints.push_back(std::move(joint));
+    }
+
+    void readLink(const XMLElement& element) {
+        const auto model = model_->getLink(textOf(element, "name"));
+        RobotLink& link = robot_.links[index_.at(model->name)];
+        link.collision = readShapes(element, "collision", model->collision_array);
+        link.visual = readShapes(element, "visual", model->visual_array);
+        link.color = urdfColor(file_, element);
+        for (auto at = model; at->parent_joint; at = at->getParent()) // where its joints are at 0
+            link.place = poseOf(at->parent_joint->parent_to_joint_origin_transform) * link.place;
+    }
+
+    void readJoint(RobotJoint joint) {
+        const auto model = model_->getJoint(joint.name);
+        joint.origin = poseOf(model->parent_to_joint_origin_transform);
+        const auto leaveOut = [&](const std::string& why) {
+            robot_.notes.push_back(
+                leftOutJoint(joint.name, joint.where, why, robot_.links[joint.child].name));
+        };
+        if (model->type == urdf::Joint::PLANAR) return leaveOut("is planar, without limits");
+        if (model->type == urdf::Joint::FLOATING) return leaveOut("is floating, without limits");
+        if (model->type != urdf::Joint::FIXED) {
+            const auto& limits = model->limits;
+            if (model->type != urdf::Joint::CONTINUOUS && limits->lower > limits->upper)
+                return leaveOut("has a lower limit above its upper one");
+            readDof(*model, joint);
         }
         robot_.joints.push_back(std::move(joint));
-        unused_.push_back(unused);
     }
 
-    int linkAt(const XMLElement& joint, const char* end) const {
-        const XMLElement* link = joint.FirstChildElement(end);
-        if (!link) throw InputError(placeOf(file_, joint), std::string("expected an element <") + end + ">");
-        const auto found = index_.find(textOf(*link, "link"));
-        if (found == index_.end())
-            throw InputError(placeOf(file_, *link),
-                             "expected the name of a link, found \"" + textOf(*link, "link") + "\"");
-        return found->second;
-    }
-
-    Dof readDof(const XMLElement& element, RobotJoint& joint) const {
-        const std::string type = textOf(element, "type");
+    static void readDof(const urdf::Joint& model, RobotJoint& joint) {
         Dof dof;
-        dof.kind = type == "prismatic" ? DofKind::Translation : DofKind::Rotation;
-        dof.axis = Vec3::UnitX();
-        dof.lower = dof.upper = 0;
-        if (const XMLElement* axis = element.FirstChildElement("axis"))
-            dof.axis = vectorOf(numbers(*axis, "xyz", 3), Vec3::UnitX());
-        if (dof.axis.norm() != 1) dof.axis.normalize();
-        if (const XMLElement* limit = element.FirstChildElement("limit")) {
-            dof.lower = number(*limit, "lower", 0);
-            dof.upper = number(*limit, "upper", 0);
-        }
-        if (type == "continuous") {
+        dof.kind = model.type == urdf::Joint::PRISMATIC ? DofKind::Translation : DofKind::Rotation;
+        const Vec3 axis = vector(model.axis);
+        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
+        if (model.type == urdf::Joint::CONTINUOUS) {
             dof.lower = -std::numbers::pi;
             dof.upper = std::numbers::pi;
             joint.endless = true;
+        } else {
+            dof.lower = model.limits->lower;
+            dof.upper = model.limits->upper;
         }
-        if (const XMLElement* mimic = element.FirstChildElement("mimic")) {
-            joint.leader = textOf(*mimic, "joint");
-            joint.factor = number(*mimic, "multiplier", 1);
-            joint.offset = number(*mimic, "offset", 0);
+        if (model.mimic) {
+            joint.leader = model.mimic->joint_name;
+            joint.factor = model.mimic->multiplier;
+            joint.offset = model.mimic->offset;
         }
-        return dof;
+        joint.dofs.push_back(dof);
     }
 
-    void checkJoint(const XMLElement& joint, const std::string& type) const {
-        static const std::set<std::string> types = {"revolute", "continuous", "prismatic",
-                                                    "fixed",    "floating",   "planar"};
-        if (!types.contains(type))
-            throw InputError(placeOf(file_, joint),
-                             "type: expected revolute, continuous, prismatic, fixed, floating or planar, "
-                             "found \"" +
-                                 type + "\"");
-        if (type == "fixed") return;
-        if (!joint.FirstChildElement("limit") && (type == "revolute" || type == "prismatic"))
-            throw InputError(placeOf(file_, joint), "expected an element <limit lower=... upper=...>");
-        if (const XMLElement* axis = joint.FirstChildElement("axis"))
-            if (!(vectorOf(numbers(*axis, "xyz", 3), Vec3::UnitX()).norm() > 0))
-                throw InputError(placeOf(file_, *axis), "expected an axis that is not zero");
-        if (const XMLElement* mimic = joint.FirstChildElement("mimic")) expectAttributes(*mimic, {"joint"});
-    }
-
-    /// Where its joints are at 0.
-    void placeLinks() {
-        std::vector<const RobotJoint*> above(robot_.links.size(), nullptr);
-        for (const RobotJoint& joint : robot_.joints) above[joint.child] = &joint;
-        for (std::size_t k = 0; k < above.size(); ++k)
-            for (const RobotJoint* joint = above[k]; joint; joint = above[joint->parent])
-                robot_.links[k].place = joint->origin * robot_.links[k].place;
-    }
-
-    void leaveOut() {
-        std::vector<RobotJoint> kept;
-        for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
-            RobotJoint& joint = robot_.joints[k];
-            if (unused_[k].empty())
-                kept.push_back(std::move(joint));
-            else
-                robot_.notes.push_back(
-                    leftOutJoint(joint.name, joint.where, unused_[k], robot_.links[joint.child].name));
-        }
-        robot_.joints = std::move(kept);
-    }
-
-    const XMLElement& top_;
-    const std::string file_;
+    std::string file_;
     Robot& robot_;
+    urdf::ModelInterfaceSharedPtr model_;
     std::map<std::string, int> index_;
-    std::vector<std::string> unused_; ///< of each joint
 };
 
 } // namespace
@@ -326,8 +181,14 @@ private:
 Robot readUrdf(const std::string& text, const std::string& file) {
     const auto document = parseXml(text, file, "robot");
     Robot robot;
+    XMLElement& top = *document->RootElement();
+    const PrunedUrdf pruned = pruneUrdf(top, file);
     robot.file = file;
-    UrdfReader(*document->RootElement(), file, robot);
+    robot.notes = pruned.notes;
+    UrdfReader(top, file, robot);
+    for (const auto& [name, visual, shape] : pruned.shapes)
+        for (RobotLink& link : robot.links)
+            if (link.name == name) (visual ? link.visual : link.collision).push_back(shape);
     settleRobot(robot);
     return robot;
 }

@@ -1,6 +1,7 @@
 // Reads URDF files with urdfdom and with readUrdf(), and says where a link, a joint, a shape or a pair is
-// another: compare_urdfdom FILE.urdf... Exit status 1 where one of them differs. What docs/ROBOTS.md says is
-// left out or taken otherwise is no difference where it is said of that link or joint.
+// another: compare_urdfdom FILE.urdf... Exit status 1 where one of them differs. The reader leans on urdfdom
+// too, of a text that it has tidied first: this one reads the file as it is. What docs/ROBOTS.md says is left
+// out or taken otherwise is no difference where it is said of that link or joint.
 #include "bake/geometry/Import.h"
 #include "bake/robot/ReadRobot.h"
 #include "tests/robots/Compared.h"
