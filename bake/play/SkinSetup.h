@@ -21,13 +21,14 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model);
 std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel& scene,
                                                                const SkinModel& skin);
 
-/// How the scene says that the skin behaves; the rest at its defaults. farTurns: takes the paths of joints that
-/// turn its bones by more than half a turn from rest, beyond which skin between them goes the other way round.
+/// How the scene says that the skin behaves; the rest at its defaults. farTurns: takes the paths of joints
+/// that turn its bones by more than half a turn from rest, beyond which skin between them goes the other way
+/// round.
 SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
                               std::vector<std::string>* farTurns = nullptr);
 
-/// Between which values a joint value goes where it is looked at by itself. Joints of no pair may be unlimited:
-/// a turn goes half way round then, and a slide stays at rest.
+/// Between which values a joint value goes where it is looked at by itself. Joints of no pair may be
+/// unlimited: a turn goes half way round then, and a slide stays at rest.
 std::array<double, 2> swingEnds(const Dof& dof);
 
 /// All of it: the rig for SkinResponse. Without a table the skin is carried by what is below it and not kept

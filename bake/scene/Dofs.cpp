@@ -121,8 +121,8 @@ std::vector<std::string> readOrder(const PrimReader& prim) {
 
 /// The cone of a spherical joint is read as a box that holds it, the angles about the two axes across: as the
 /// twist is free, either of them takes up the other's, so that both go as far as the wider. A cone of a right
-/// angle and more is none, nor is one whose twist comes between the other two turns, as about Y where no order
-/// is given, or that a path is part of: no box holds it.
+/// angle and more is none, nor is one whose twist comes between the other two turns, as about Y where no
+/// order is given, or that a path is part of: no box holds it.
 void readCone(const PrimReader& prim, const std::string& token, const std::vector<std::string>& order,
               Dof& dof) {
     const std::string twist = "rot" + prim.choice(schema::axis);

@@ -62,7 +62,8 @@ bool changes(const Property& property) {
 std::string changingOf(const Prim& joint) {
     for (const auto& [name, property] : joint.properties) {
         const bool ours = name.starts_with("tss:") && !name.starts_with("tss:drive:");
-        if (changes(property) && (ours || name.starts_with("physics:") || name.starts_with("limit:"))) return name;
+        if (changes(property) && (ours || name.starts_with("physics:") || name.starts_with("limit:")))
+            return name;
     }
     return "";
 }

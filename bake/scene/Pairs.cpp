@@ -63,9 +63,10 @@ void checkMeshes(const SceneReading& reading, const PrimReader& prim, const Pair
 /// What is proven of a pair is proven of one shape of its bodies and of one of its joints.
 bool checkStill(const SceneReading& reading, const Pair& pair) {
     const auto fails = [&](int entry, std::string_view name) {
-        reading.problems.add(reading.index.entries[entry].place.property(name) / "timeSamples",
-                             "expected a value that stays as it is, for it is of a pair, found one that changes "
-                             "in time");
+        reading.problems.add(
+            reading.index.entries[entry].place.property(name) / "timeSamples",
+            "expected a value that stays as it is, for it is of a pair, found one that changes "
+            "in time");
         return false;
     };
     for (const int index : pair.joints) {
@@ -77,7 +78,8 @@ bool checkStill(const SceneReading& reading, const Pair& pair) {
         const int own = reading.index.find(reading.scene.bodies[body].path);
         for (int entry = own; entry >= 0; entry = reading.index.entries[entry].parent) {
             for (const auto& [name, property] : reading.index.entries[entry].prim->properties) {
-                const bool shape = name == "points" || name.starts_with("faceVertex") || name == "orientation";
+                const bool shape =
+                    name == "points" || name.starts_with("faceVertex") || name == "orientation";
                 if (changes(property) && ((shape && entry == own) || name.starts_with("xformOp:scale")))
                     return fails(entry, name);
             }
@@ -156,7 +158,8 @@ void readPairs(SceneReading& reading) {
                                                               : readBodiesOfPrim(reading, ways, prim, pair);
         if (!tied) return;
         checkMeshes(reading, prim, pair);
-        if (checkStill(reading, pair) && checkPairMotion(reading, moving, prim, pair)) reading.scene.pairs.push_back(std::move(pair));
+        if (checkStill(reading, pair) && checkPairMotion(reading, moving, prim, pair))
+            reading.scene.pairs.push_back(std::move(pair));
     });
 }
 
@@ -176,8 +179,10 @@ void checkCarried(const SceneReading& reading) {
             for (const Pair& pair : scene.pairs)
                 if (pair.bodyA == carrier->second || pair.bodyB == carrier->second)
                     reading.reader(reading.index.find(pair.path))
-                        .problem("expected all of ", carrier->first, " in one mesh, or other meshes of it on "
-                                 "joints of their own, found ", path, " inside of it, which no joint moves");
+                        .problem("expected all of ", carrier->first,
+                                 " in one mesh, or other meshes of it on "
+                                 "joints of their own, found ",
+                                 path, " inside of it, which no joint moves");
             break;
         }
     }

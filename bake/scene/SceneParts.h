@@ -58,7 +58,8 @@ void writeJoints(Layer& layer, const SceneModel& scene);
 bool isJoint(const Prim& prim);
 /// The property has a value by time that need not be the one that is read where time does not count.
 bool changes(const Property& property);
-/// A property of a joint, its desired motion apart, that is not the same at all times; empty when there is none.
+/// A property of a joint, its desired motion apart, that is not the same at all times; empty when there is
+/// none.
 std::string changingOf(const Prim& joint);
 /// The DOFs, couplings and desired motion of a joint prim.
 void readDofs(const PrimReader& prim, Joint& joint);

@@ -26,8 +26,8 @@ struct SplitXform {
 };
 SplitXform split(const Xform& xform);
 
-/// A point of a file, a float, with the stretch that it takes on: a float again, which is what is baked, hashed
-/// and drawn.
+/// A point of a file, a float, with the stretch that it takes on: a float again, which is what is baked,
+/// hashed and drawn.
 Vec3 stretched(const SplitXform& xform, const Vec3& point);
 
 /// Writes the operations of a rigid transform to the parent.

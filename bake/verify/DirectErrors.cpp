@@ -12,7 +12,8 @@ PairErrors directErrors(const PreparedTable& prepared, const StoredRow& row, con
     const bool single = prepared.precision() == KernelPrecision::Float;
     const double u = single ? 0x1p-24 : 0x1p-53;
     const Vec3 &originA = prepared.kernels().originA(), &originB = prepared.kernels().originB();
-    const Vector a = test.a.cast<Real>() - originA.cast<Real>(), b = test.b.cast<Real>() - originB.cast<Real>();
+    const Vector a = test.a.cast<Real>() - originA.cast<Real>(),
+                 b = test.b.cast<Real>() - originB.cast<Real>();
     const auto storedOff = [&](std::size_t column, const Vector& wanted, double size) {
         const Vector stored(row[column], row[column + 1], row[column + 2]);
         return double((stored - wanted).norm() + 4 * realRoundoff * size);

@@ -88,7 +88,8 @@ TEST_CASE("a skin is judged along the joints of the scene's own animation") {
     CHECK(report.skins[0].motion.farthestMove > 0.2);
 }
 
-TEST_CASE("of a joint without limits a turn goes half way round, and a slide stays, as its skin's table has it") {
+TEST_CASE(
+    "of a joint without limits a turn goes half way round, and a slide stays, as its skin's table has it") {
     SceneModel scene = elbowScene();
     Dof& dof = scene.joints[0].dofs[0];
     const double unlimited = std::numeric_limits<double>::infinity();

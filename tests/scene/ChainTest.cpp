@@ -293,7 +293,8 @@ TEST_CASE("a pair on a joint of a closed loop is refused, as one over a chain of
             if (joint < 2)
                 CHECK_NOTHROW(samples::fromFile(scene));
             else
-                CHECK_THROWS_WITH(samples::fromFile(scene), Catch::Contains("expected a joint that is enabled"));
+                CHECK_THROWS_WITH(samples::fromFile(scene),
+                                  Catch::Contains("expected a joint that is enabled"));
         }
     // One that the pair's bodies have no part in is none of its business.
     SceneModel elsewhere = linkage({{-1, 0}, {-1, 0}});
@@ -321,8 +322,9 @@ TEST_CASE("a pair over a joint that does not move its body1 is refused") {
     scene.joints[3].path = "/Scene/J3";
     scene.joints[3].body0 = -1, scene.joints[3].body1 = 3;
     onlyPair(scene, "/Scene/Ends", 0, 3, {2, 3});
-    CHECK_THROWS_WITH(samples::fromFile(scene), Catch::Contains("/Scene/J2 moves its physics:body1, found that "
-                                                                "this is the world"));
+    CHECK_THROWS_WITH(samples::fromFile(scene),
+                      Catch::Contains("/Scene/J2 moves its physics:body1, found that "
+                                      "this is the world"));
 }
 
 TEST_CASE("bodies stand where the joints that move them say, however these are ordered") {

@@ -59,8 +59,9 @@ TEST_CASE("rotateXYZ turns about X first") {
 }
 
 TEST_CASE("points that a scale moves are floats, as those of files: what is hashed is what was baked") {
-    const Body body = meshUnder(
-        "", op(R"("xformOp:scale")", R"("xformOp:scale": {"typeName": "double3", "default": [1.1, -0.7, 1.3]})"));
+    const Body body =
+        meshUnder("", op(R"("xformOp:scale")",
+                         R"("xformOp:scale": {"typeName": "double3", "default": [1.1, -0.7, 1.3]})"));
     for (const Vec3& vertex : world(body))
         for (const double coordinate : vertex) CHECK(isFloat(coordinate));
     CHECK((world(body)[0] - Vec3(1.1, 0, 0)).norm() < 1e-7);

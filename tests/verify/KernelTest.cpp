@@ -47,7 +47,8 @@ TEST_CASE("the kernels of random tables keep what they promise about rounding, i
     CHECK(directs > 100);
 }
 
-TEST_CASE("the kernels of bodies far from their axes, and of turns many times round, keep their promise too") {
+TEST_CASE(
+    "the kernels of bodies far from their axes, and of turns many times round, keep their promise too") {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         CAPTURE(seed);
         random_table::Random random(seed);
@@ -61,7 +62,8 @@ TEST_CASE("the kernels of bodies far from their axes, and of turns many times ro
             }
         Table table = random_table::table(random, motion, 6, 6, 1);
         if (!wide) { // all of B moved along, and A after it
-            const Vec3 away = std::pow(10.0, random_table::between(random, 3, 5)) * random_table::direction(random);
+            const Vec3 away =
+                std::pow(10.0, random_table::between(random, 3, 5)) * random_table::direction(random);
             for (std::size_t k = 0; k < table.b.size(); ++k) {
                 Sphere &a = table.a[k], &b = table.b[k];
                 b.centre += away;
