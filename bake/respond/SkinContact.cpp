@@ -124,6 +124,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
     Vec3f own = scene.normalOf(row.vertex);
     if (placed.moved) own = placed.turn.transpose() * own;
+    if (row.fromOutside) own = -own;
     SurfacePoint hit;
     Vec3f motion = Vec3f::Zero();
     const float reach = std::max(boneReach * rig.radius, boneReachOfSize);

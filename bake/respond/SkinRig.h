@@ -102,6 +102,8 @@ struct SkinRow {
     std::uint32_t first = 0, last = 0; ///< start triangles of the query: range in SkinRig::starts
     bool insideAtRest = false; ///< the vertex is on the wrong side of the surface at rest already, and is
                                ///< only kept from getting deeper
+    bool fromOutside = false; ///< SkinOnBody of a bone: that lies before the outer side of the skin at rest,
+                              ///< as teeth do before the lining of a lip
     bool flipped = false; ///< the surface overlaps itself, and its side next to the vertex is wound the wrong
                           ///< way round: its normal counts negative
     Tri corners{0, 0, 0}; ///< anchor, the point of the surface that the vertex faces at rest: triangle ...

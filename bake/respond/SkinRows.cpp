@@ -48,8 +48,10 @@ Vec3 triangleNormal(const TriangleMesh& mesh, int t) {
 struct FoundContacts {
     std::vector<std::vector<int>> triangles; ///< per vertex: triangles of the skin that it came near to
     std::vector<char> outside;               ///< per vertex: a muscle's that is above the skin at rest
+    std::vector<char> stickingOut;           ///< per vertex: a bone's, such as a tooth's, that is above it
 
-    explicit FoundContacts(std::size_t vertices) : triangles(vertices), outside(vertices, 0) {}
+    explicit FoundContacts(std::size_t vertices)
+        : triangles(vertices), outside(vertices, 0), stickingOut(vertices, 0) {}
 
     void add(std::size_t vertex, int triangle) {
         auto& list = triangles[vertex];
@@ -70,8 +72,8 @@ void findBodyContacts(const SkinRig& rig, const SkinScene& scene, const Triangle
             const Vec3 x = placed.toSkin(scene.surface[v].head<3>()).cast<double>();
             if (box.squaredExteriorDistance(x) > reach * reach) return;
             const Vec3 own = (placed.turn * scene.normals[v].head<3>()).cast<double>();
-            if (found.outside[v]) return;
-            if (atRest && !body.bone()) { // bones such as teeth may stick out
+            if (found.outside[v] || found.stickingOut[v]) return;
+            if (atRest && !body.bone()) {
                 const NearestPoint any = locator.nearest(x, reach);
                 if (any.triangle >= 0 && triangleNormal(skin, any.triangle).dot(x - any.point) > 0) {
                     found.outside[v] = 1;
@@ -82,7 +84,10 @@ void findBodyContacts(const SkinRig& rig, const SkinScene& scene, const Triangle
             const NearestPoint near = locator.nearestFacing(x, reach, own);
             if (near.triangle < 0) return;
             const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
-            if (above >= -static_cast<double>(enterDepth * rig.radius)) found.add(v, near.triangle);
+            if (above >= -static_cast<double>(enterDepth * rig.radius))
+                found.add(v, near.triangle);
+            else if (atRest)
+                found.stickingOut[v] = 1;
         });
     }
 }
@@ -202,6 +207,12 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     }
 }
 
+/// Whether the nearest point of a bone lies before the outer side of a skin vertex, and faces it.
+bool facesFromOutside(const TriangleMesh& bone, const NearestPoint& near, const Vec3& x, const Vec3& own) {
+    const Vec3 normal = triangleNormal(bone, near.triangle), away = x - near.point;
+    return normal.dot(own) < 0 && own.dot(away) * normal.dot(away) < 0;
+}
+
 } // namespace
 
 std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table) {
@@ -215,7 +226,7 @@ std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, cons
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
             meets[table.muscleOf[t.columns[k]]] = true;
         for (std::uint32_t m = 0; m < meets.size(); ++m)
-            if (meets[m] && known.emplace(v, m).second) result.push_back({v, m, false, {}});
+            if (meets[m] && known.emplace(v, m).second) result.push_back({v, m, false, false, {}});
     }
     parallelFor(result.size(), [&](std::size_t k) {
         ContactCandidate& candidate = result[k];
@@ -224,8 +235,12 @@ std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, cons
         candidate.inside =
             !anatomy.inside[candidate.body].empty() && anatomy.inside[candidate.body][candidate.vertex];
         const MuscleDeformer& body = *anatomy.bodies[candidate.body];
-        candidate.nearest =
-            body.rigid() ? locator.nearestFacing(x, anatomy.size, own) : locator.nearest(x, anatomy.size);
+        candidate.nearest = locator.nearest(x, anatomy.size);
+        if (body.rigid() && candidate.nearest.triangle >= 0) {
+            candidate.fromOutside = facesFromOutside(body.muscle().surface, candidate.nearest, x, own);
+            candidate.nearest =
+                locator.nearestFacing(x, anatomy.size, candidate.fromOutside ? Vec3(-own) : own);
+        }
         if (candidate.nearest.triangle < 0 || body.rigid()) return;
         Vec3 smooth = Vec3::Zero();
         for (int c = 0; c < 3; ++c)
@@ -247,6 +262,7 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& can
         row.vertex = indexOf[candidate.vertex];
         row.body = candidate.body;
         row.insideAtRest = candidate.inside;
+        row.fromOutside = candidate.fromOutside;
         row.first = static_cast<std::uint32_t>(rig.starts.size());
         rig.starts.push_back(candidate.nearest.triangle);
         row.last = row.first + 1;

@@ -8,8 +8,9 @@ namespace tss {
 struct ContactCandidate {
     std::uint32_t vertex = 0; ///< of the skin mesh
     std::uint32_t body = 0;
-    bool inside = false;  ///< the vertex is inside of the body, a muscle, at rest
-    NearestPoint nearest; ///< of the body's surface at rest
+    bool inside = false;      ///< the vertex is inside of the body, a muscle, at rest
+    bool fromOutside = false; ///< see SkinRow
+    NearestPoint nearest;     ///< of the body's surface at rest
 };
 
 std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table);

@@ -1,0 +1,70 @@
+#include "SkinShapes.h"
+#include "tests/Shapes.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+constexpr double thickness = 0.15;
+
+Muscle rigid(TriangleMesh mesh) {
+    Muscle bone;
+    bone.surface = std::move(mesh);
+    bone.fibre = {{0, 0, 0}, {0, 0, 1}};
+    bone.activationUpper = 0;
+    return bone;
+}
+
+TriangleMesh flat() {
+    return skins::vaultedSheet(32, 1, 0, 0);
+}
+
+/// A flat skin, its outer side up, held by a plate below it, and a second bone that moves along z by `travel`
+/// and holds none of the skin.
+struct Pressed {
+    skins::Couple couple;
+    SkinParameters parameters;
+    std::vector<Pose> moved{Pose::Identity(), Pose::Identity()};
+
+    Pressed(TriangleMesh skin, TriangleMesh bone, double travel)
+        : couple(skins::couple(std::move(skin),
+                               {rigid(boxMesh({-1, -1, -1}, {1, 1, -0.3})), rigid(std::move(bone))},
+                               thickness)) {
+        const std::size_t count = couple.skin.vertices.size();
+        parameters.shares = {std::vector<double>(count, 1), std::vector<double>(count, 0)};
+        moved[1].translation().z() = travel;
+        parameters.swings = {BoneSwing{moved}};
+    }
+};
+
+} // namespace
+
+TEST_CASE("a bone before the outer side of a skin, as a tooth is before a lip's lining, presses it in") {
+    constexpr double radius = 0.3, gap = 0.05, travel = -0.2;
+    const Pressed pressed(flat(), ballMesh({0, 0, radius + gap}, radius, 4), travel);
+    const auto rig = pressed.couple.rig(pressed.parameters);
+    SkinResponse response(rig);
+    response.update(std::vector<double>{0, 0}, pressed.moved);
+    const Vec3 centre(0, 0, radius + gap + travel);
+    double deepest = 0, lowest = 0;
+    for (const Vec3& x : response.positions()) {
+        deepest = std::max(deepest, radius - (x - centre).norm());
+        lowest = std::min(lowest, x.z());
+    }
+    CHECK(deepest < 0.02);
+    CHECK(lowest == Approx(gap + travel).margin(0.01));
+    response.update(std::vector<double>{0, 0});
+    CHECK(skins::exactlyAtRest(response));
+}
+
+TEST_CASE("what of a bone is before the skin at rest does not draw it along when it goes away") {
+    Pressed pressed(flat(), boxMesh({-0.5, -0.5, 0.02}, {0.5, 0.5, 0.1}), -0.15);
+    const std::vector<Pose> away{Pose::Identity(), Pose(Eigen::Translation3d(0, 0, 0.1))};
+    pressed.parameters.swings.push_back(BoneSwing{away});
+    SkinResponse response(pressed.couple.rig(pressed.parameters));
+    response.update(std::vector<double>{0, 0}, away);
+    CHECK(skins::exactlyAtRest(response));
+}
