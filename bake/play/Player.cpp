@@ -2,12 +2,10 @@
 #include "bake/base/Error.h"
 
 #include "bake/base/Stopwatch.h"
-#include "bake/geometry/Solid.h"
 #include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
-#include "bake/motion/MuscleDeformer.h"
-#include "bake/motion/MuscleSpan.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/play/BelowSkin.h"
 #include "bake/play/FreeMuscles.h"
 #include "bake/play/JointPlan.h"
 #include "bake/play/SkinSetup.h"
@@ -20,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace tss {
 
@@ -35,20 +32,15 @@ public:
 private:
     struct Skin {
         int index = 0; ///< of the scene
-        std::vector<std::shared_ptr<const MuscleDeformer>> muscles;
+        BelowSkin below;
         SkinResponse response;
         std::vector<double> activations;
         std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
         std::vector<double> restDepths; ///< one a touched vertex
         SkinFollowMeasure follow;
-        std::vector<std::optional<Solid>> bones; ///< in their own frames; none of a muscle that moves
     };
 
     std::vector<double> clamped(const std::vector<double>& asked) const;
-    /// Of the bone at a muscle's insertion against that at its origin, since rest.
-    static Pose farOf(const Skin& skin, std::size_t m);
-    static std::vector<std::optional<Solid>> bonesOf(const Skin& skin);
-    std::vector<double> depths(const Skin& skin, std::span<const Vec3> positions) const;
 
     const SceneModel& scene_;
     std::shared_ptr<const JointPlan> plan_;
@@ -80,14 +72,16 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
 
     for (std::size_t k = 0; k < scene.skins.size(); ++k) {
         const SkinModel& skin = scene.skins[k];
-        auto muscles = skinMuscles(scene, skin);
+        const BelowSkin below(skinMuscles(scene, skin), underSkin(scene, skin));
         const auto rig = skinRig(scene, skin);
-        SkinFollowMeasure follow(scene.bodies[skin.body].mesh, muscles, *rig);
-        skins_.push_back(
-            {static_cast<int>(k), std::move(muscles), SkinResponse(rig), {}, {}, {}, std::move(follow), {}});
-        skins_.back().activations.assign(skins_.back().muscles.size(), 0.0);
-        skins_.back().bones = bonesOf(skins_.back());
-        skins_.back().restDepths = depths(skins_.back(), skins_.back().response.rig().rest);
+        const std::vector<double> resting(below.muscles().size(), 0.0);
+        skins_.push_back({static_cast<int>(k),
+                          below,
+                          SkinResponse(rig),
+                          resting,
+                          {},
+                          below.at(resting, {}).depths(rig->rest),
+                          SkinFollowMeasure(scene.bodies[skin.body].mesh, below.muscles(), *rig)});
     }
 }
 
@@ -110,41 +104,6 @@ std::vector<double> Player::State::clamped(const std::vector<double>& asked) con
         next += joint.dofs.size();
     }
     return values;
-}
-
-Pose Player::State::farOf(const Skin& skin, std::size_t m) {
-    const int insertion = skin.response.rig().bodies[m].insertion;
-    if (insertion < 0 || skin.poses.empty()) return Pose::Identity();
-    return between(skin.poses[m], skin.poses[insertion]);
-}
-
-std::vector<std::optional<Solid>> Player::State::bonesOf(const Skin& skin) {
-    std::vector<std::optional<Solid>> bones(skin.muscles.size());
-    for (std::size_t m = 0; m < bones.size(); ++m) {
-        const MuscleDeformer& body = *skin.muscles[m];
-        if (body.rigid() && skin.response.rig().bodies[m].insertion < 0 && !body.muscle().surface.empty())
-            bones[m].emplace(body.muscle().surface);
-    }
-    return bones;
-}
-
-std::vector<double> Player::State::depths(const Skin& skin, std::span<const Vec3> positions) const {
-    std::vector<double> deepest(positions.size(), 0.0);
-    for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
-        const MuscleDeformer& deformer = *skin.muscles[m];
-        if (deformer.muscle().surface.empty()) continue;
-        std::optional<Solid> muscle;
-        if (!skin.bones[m])
-            muscle.emplace(TriangleMesh{verticesBetween(deformer, skin.activations[m], farOf(skin, m)),
-                                        deformer.muscle().surface.triangles});
-        const Solid& solid = muscle ? *muscle : *skin.bones[m];
-        const Eigen::AlignedBox3d box = bounds(solid.mesh());
-        const Pose back = skin.poses.empty() ? Pose::Identity() : Pose(skin.poses[m].inverse());
-        for (std::size_t i = 0; i < positions.size(); ++i)
-            if (const Vec3 x = back * positions[i]; box.contains(x) && solid.inside(x))
-                deepest[i] = std::max(deepest[i], solid.boundary().distance(x));
-    }
-    return deepest;
 }
 
 Player::Step Player::State::step(const std::vector<double>& asked, double timeCode) {
@@ -183,7 +142,8 @@ Player::Step Player::State::step(const std::vector<double>& asked, double timeCo
         const double skinBegan = threadSeconds();
         result.pushed.push_back(skin.response.update(skin.activations, skin.poses).pushed);
         result.skinSeconds.push_back(threadSeconds() - skinBegan);
-        const std::vector<double> now = depths(skin, skin.response.positions());
+        const std::vector<double> now =
+            skin.below.at(skin.activations, skin.poses).depths(skin.response.positions());
         double worst = 0;
         for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);
         result.residualDepths.push_back(worst);
@@ -215,9 +175,9 @@ std::vector<TriangleMesh> Player::State::worldMeshes() const {
             const MuscleModel& muscle = scene_.muscles[model.muscles[m]];
             const Pose toBody = scene_.bodies[muscle.body].placement.inverse(Eigen::Isometry) *
                                 scene_.bodies[model.body].placement;
-            if (!skin.muscles[m]->rigid()) {
+            if (!skin.below.muscles()[m]->rigid()) {
                 std::vector<Vec3>& vertices = meshes[muscle.body].vertices;
-                vertices = verticesBetween(*skin.muscles[m], skin.activations[m], farOf(skin, m));
+                vertices = skin.below.vertices(m, skin.activations, skin.poses);
                 for (Vec3& v : vertices) v = toBody * v;
             }
             if (muscle.bone >= 0 && !skin.poses.empty()) // it goes with that, whatever its own prim does

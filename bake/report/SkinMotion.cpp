@@ -1,10 +1,7 @@
 #include "bake/report/SkinMotion.h"
 
-#include "bake/base/Parallel.h"
-#include "bake/geometry/Solid.h"
-#include "bake/motion/BoneSwing.h"
-#include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleVolume.h"
+#include "bake/play/BelowSkin.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/report/Timing.h"
 #include "bake/respond/SkinResponse.h"
@@ -15,48 +12,6 @@
 namespace tss::reporting {
 
 namespace {
-
-/// The surfaces below the skin at one step.
-struct Truth {
-    std::vector<Solid> solids;
-
-    double depth(const Vec3& p) const {
-        double deepest = 0;
-        for (const Solid& solid : solids)
-            if (solid.inside(p)) deepest = std::max(deepest, solid.boundary().distance(p));
-        return deepest;
-    }
-    std::vector<double> depths(std::span<const Vec3> positions) const {
-        std::vector<double> each(positions.size());
-        parallelFor(each.size(), [&](std::size_t i) { each[i] = depth(positions[i]); });
-        return each;
-    }
-};
-
-/// What is below a skin.
-struct Below {
-    const Muscles& muscles;
-    std::vector<UnderSkin> under; ///< one each
-
-    /// Where the vertices of one are.
-    std::vector<Vec3> places(std::size_t m, const SkinAsked& asked) const {
-        const int insertion = under[m].insertion;
-        const bool spans = insertion >= 0 && !asked.poses.empty();
-        const Pose far = spans ? between(asked.poses[m], asked.poses[insertion]) : Pose::Identity();
-        std::vector<Vec3> places = verticesBetween(*muscles[m], asked.activations[m], far);
-        if (!asked.poses.empty())
-            for (Vec3& v : places) v = asked.poses[m] * v;
-        return places;
-    }
-    Truth at(const SkinAsked& asked) const {
-        Truth truth;
-        for (std::size_t m = 0; m < muscles.size(); ++m)
-            if (!muscles[m]->muscle().surface.empty()) // else it moves skin and has no shape
-                truth.solids.emplace_back(
-                    TriangleMesh{places(m, asked), muscles[m]->muscle().surface.triangles});
-        return truth;
-    }
-};
 
 /// How much deeper than at rest the deepest is.
 double deepestBeyond(const std::vector<double>& now, const std::vector<double>& rest) {
@@ -103,27 +58,28 @@ struct Played {
     const SkinRig& rig;
     const std::vector<SkinAsked>& asked;
     std::vector<double> rest; ///< #touched: depths at rest
-    std::vector<Truth> truths;
+    std::vector<ShapesBelow> truths;
     std::vector<std::vector<Vec3>> converged; ///< by a solver that may go on until nothing moves
     std::vector<std::vector<Vec3>> untouched; ///< where nothing pushes
     double restArea = 0;
 };
 
 /// What a step asks, and what would be left at it untouched and converged.
-void studyStep(SkinMotionStudy& study, const Played& played, const Below& below, std::size_t s) {
+void studyStep(SkinMotionStudy& study, const Played& played, const BelowSkin& below, std::size_t s) {
     const SkinAsked& asked = played.asked[s];
-    study.perStepAsked.push_back(meanActivation(below.muscles, asked.activations));
-    const Truth& truth = played.truths[s];
+    study.perStepAsked.push_back(meanActivation(below.muscles(), asked.activations));
+    const ShapesBelow& truth = played.truths[s];
     study.perStepUntouched.push_back(deepestBeyond(truth.depths(played.untouched[s]), played.rest));
     study.untouched = std::max(study.untouched, study.perStepUntouched.back());
     const std::vector<Vec3>& converged = played.converged[s];
     study.converged = std::max(study.converged, deepestBeyond(truth.depths(converged), played.rest));
     for (std::size_t v = 0; v < study.touched; ++v)
         study.farthestMove = std::max(study.farthestMove, (converged[v] - played.rig.rest[v]).norm());
-    for (std::size_t m = 0; m < below.muscles.size(); ++m) {
-        const MuscleDeformer& muscle = *below.muscles[m];
+    for (std::size_t m = 0; m < below.muscles().size(); ++m) {
+        const MuscleDeformer& muscle = *below.muscles()[m];
         if (muscle.rigid()) continue;
-        const double volume = enclosedVolume(below.places(m, asked), muscle.muscle().surface.triangles);
+        const double volume = enclosedVolume(below.vertices(m, asked.activations, asked.poses),
+                                             muscle.muscle().surface.triangles);
         study.muscleVolume = std::max(study.muscleVolume, std::abs(volume / muscle.restVolume() - 1));
     }
 }
@@ -178,21 +134,21 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     const auto rig = rigOf(usual);
     study.touched = rig->vertices.size();
     if (study.touched == 0) return study;
-    const Below below{muscles, underSkin(scene, skin)};
-    const SkinAsked atRest{std::vector<double>(muscles.size(), 0.0), {}};
+    const BelowSkin below(muscles, underSkin(scene, skin));
+    const std::vector<double> resting(muscles.size(), 0.0);
     SkinModel carried = skin;
     carried.table = nullptr;
     Played played{mesh,
                   *rig,
                   asked,
-                  below.at(atRest).depths(rig->rest),
+                  below.at(resting, {}).depths(rig->rest),
                   {},
                   stepsOf(rigOf(2000), asked, mesh, *rig),
                   motion.bones ? stepsOf(skinRig(scene, carried), asked, mesh, *rig)
                                : std::vector<std::vector<Vec3>>(asked.size(), rig->rest),
                   areaOf(rig->rest, rig->triangles)};
     for (std::size_t s = 0; s < asked.size(); ++s) {
-        played.truths.push_back(below.at(asked[s]));
+        played.truths.push_back(below.at(asked[s].activations, asked[s].poses));
         studyStep(study, played, below, s);
     }
     std::vector<int> settings{0, 1, 2, 4, 8, 16, 32, 64, 128};
