@@ -1,5 +1,6 @@
 #include "bake/report/SkinMotion.h"
 
+#include "bake/compare/PushedSkin.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/play/BelowSkin.h"
 #include "bake/play/SkinSetup.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tss::reporting {
 
@@ -29,14 +31,19 @@ double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles
     return area;
 }
 
+/// Of all vertices of a skin those that a rig moves.
+std::vector<Vec3> placesOf(const std::vector<Vec3>& all, const SkinRig& rig) {
+    std::vector<Vec3> places;
+    for (const std::uint32_t v : rig.vertices) places.push_back(all[v]);
+    return places;
+}
+
 /// Where a response has the vertices of another's rig: those that it does not move itself are at rest.
 std::vector<Vec3> placesOf(const SkinResponse& response, const TriangleMesh& mesh, const SkinRig& rig) {
     std::vector<Vec3> all = mesh.vertices;
     const auto positions = response.positions();
     for (std::size_t k = 0; k < positions.size(); ++k) all[response.vertices()[k]] = positions[k];
-    std::vector<Vec3> places;
-    for (const std::uint32_t v : rig.vertices) places.push_back(all[v]);
-    return places;
+    return placesOf(all, rig);
 }
 
 /// Where a response has the skin at every step.
@@ -84,18 +91,18 @@ void studyStep(SkinMotionStudy& study, const Played& played, const BelowSkin& be
     }
 }
 
-/// The whole motion with one setting of the solver.
-SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, std::vector<double>& perStep) {
+/// The whole motion by one way of answering. update: asks for a step, and says whether that is anew; places:
+/// where the rig's vertices are then.
+SkinAnswer answerOf(const Played& played, const std::function<bool(const SkinAsked&)>& update,
+                    const std::function<std::vector<Vec3>()>& places, std::vector<double>& perStep) {
     SkinAnswer answer;
-    SkinResponse response(std::move(rig));
     std::vector<double> times;
     double squares = 0;
     const double steps = static_cast<double>(played.asked.size());
     for (std::size_t s = 0; s < played.asked.size(); ++s) {
         const double before = threadSeconds();
-        const bool moved = response.update(played.asked[s].activations, played.asked[s].poses).moved;
-        if (moved) times.push_back(1e9 * (threadSeconds() - before));
-        const std::vector<Vec3> positions = placesOf(response, played.mesh, played.rig);
+        if (update(played.asked[s])) times.push_back(1e9 * (threadSeconds() - before));
+        const std::vector<Vec3> positions = places();
         perStep.push_back(deepestBeyond(played.truths[s].depths(positions), played.rest));
         answer.deepest = std::max(answer.deepest, perStep.back());
         answer.meanDepth += perStep.back() / steps;
@@ -113,6 +120,20 @@ SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, st
     return answer;
 }
 
+SkinAnswer answerOf(const Played& played, std::shared_ptr<const SkinRig> rig, std::vector<double>& perStep) {
+    SkinResponse response(std::move(rig));
+    return answerOf(
+        played, [&](const SkinAsked& asked) { return response.update(asked.activations, asked.poses).moved; },
+        [&] { return placesOf(response, played.mesh, played.rig); }, perStep);
+}
+
+/// The paper's way.
+SkinAnswer answerOf(const Played& played, compare::PushedSkin skin, std::vector<double>& perStep) {
+    return answerOf(
+        played, [&](const SkinAsked& asked) { return skin.update(asked.activations, asked.poses); },
+        [&] { return placesOf(skin.places(), played.rig); }, perStep);
+}
+
 } // namespace
 
 SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, const Muscles& muscles,
@@ -124,13 +145,13 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     study.bones = motion.bones;
     study.steps = asked.size();
     const TriangleMesh& mesh = scene.bodies[skin.body].mesh;
+    const SkinParameters parameters = skinParameters(scene, skin);
     const auto rigOf = [&](int sweeps) {
-        SkinParameters parameters = skinParameters(scene, skin);
-        if (sweeps > 0) parameters.iterations = sweeps;
-        parameters.faithful = sweeps == 0;
-        return makeSkinRig(mesh, muscles, *skin.table, parameters);
+        SkinParameters changed = parameters;
+        changed.iterations = sweeps;
+        return makeSkinRig(mesh, muscles, *skin.table, changed);
     };
-    const int usual = skinParameters(scene, skin).iterations;
+    const int usual = parameters.iterations;
     const auto rig = rigOf(usual);
     study.touched = rig->vertices.size();
     if (study.touched == 0) return study;
@@ -155,7 +176,11 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     if (std::ranges::find(settings, usual) == settings.end()) settings.push_back(usual);
     for (const int sweeps : settings) {
         std::vector<double> perStep;
-        study.answers.push_back(answerOf(played, rigOf(sweeps), perStep));
+        study.answers.push_back(
+            sweeps > 0
+                ? answerOf(played, rigOf(sweeps), perStep)
+                : answerOf(played, compare::PushedSkin(mesh, *skin.table, muscles, parameters.insertions),
+                           perStep));
         study.answers.back().sweeps = sweeps;
         study.answers.back().usual = sweeps == usual;
         if (sweeps == usual) study.perStepUsual = std::move(perStep);

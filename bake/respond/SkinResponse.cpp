@@ -100,17 +100,6 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
 
 void SkinResponse::State::deform() {
     if (clock_.costs != nullptr) ++clock_.costs->updates;
-    if (rig_->parameters.faithful) {
-        const SkinClock::Scope scope(clock_, SkinPart::Pushes);
-        positions_ = rig_->rest;
-        contacts_ = pushOut(rig_->spheres, activations_, poses_, rig_->restNormals, positions_);
-        scene_.skin = rig_->places;
-        scene_.skin.insert(scene_.skin.end(), rig_->borderPlaces.begin(), rig_->borderPlaces.end());
-        for (std::size_t v = 0; v < rig_->places.size(); ++v)
-            scene_.skin[v].head<3>() = ((positions_[v] - rig_->centre) / rig_->size).cast<float>();
-        scene_.live.assign(rig_->blocks(), 1);
-        return;
-    }
     {
         const SkinClock::Scope scope(clock_, SkinPart::Carry);
         contactSolver_.undoPushes(scene_);
@@ -130,7 +119,6 @@ void SkinResponse::State::toRest() {
 
 /// Copies the positions of a block to the output, scene units.
 void SkinResponse::State::showPlaces(std::size_t block) {
-    if (rig_->parameters.faithful) return;
     const std::size_t first = block * SkinRig::block,
                       last = std::min(first + SkinRig::block, rig_->places.size());
     const Move *skin = scene_.skin.data(), *places = rig_->places.data();

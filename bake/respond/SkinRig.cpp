@@ -38,7 +38,7 @@ std::vector<std::uint32_t> addVertices(SkinRig& rig, const SkinAnatomy& anatomy,
                                        const std::vector<std::uint32_t>& pushed) {
     const std::size_t count = anatomy.skin.vertices.size();
     std::vector<double> distance(count, infinity);
-    lowerDistances(anatomy.graph, pushed, rig.parameters.faithful ? 0 : giveReach * anatomy.length, distance);
+    lowerDistances(anatomy.graph, pushed, giveReach * anatomy.length, distance);
     for (const auto* lists : {&attachment.frames, &attachment.muscles})
         for (const auto& list : *lists)
             for (std::size_t v = 0; v < list.size(); ++v)
@@ -250,26 +250,15 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     rig.inverted = anatomy.inverted;
     rig.centre = anatomy.centre;
     rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
-    SkinAttachment attachment;
-    std::vector<ContactCandidate> candidates;
+    const SkinAttachment attachment = attachSkin(anatomy, parameters);
+    const std::vector<ContactCandidate> candidates = contactCandidates(anatomy, table);
     std::vector<std::uint32_t> pushed;
-    if (parameters.faithful) {
-        pushed = table.skinVertices;
-    } else {
-        attachment = attachSkin(anatomy, parameters);
-        candidates = contactCandidates(anatomy, table);
-        for (const ContactCandidate& candidate : candidates) pushed.push_back(candidate.vertex);
-    }
+    for (const ContactCandidate& candidate : candidates) pushed.push_back(candidate.vertex);
     const std::vector<std::uint32_t> indexOf = addVertices(rig, anatomy, attachment, pushed);
     addTriangles(rig, anatomy.skin, indexOf);
     addBodies(rig, anatomy, framesOf(anatomy, parameters));
     addShares(rig, attachment);
     addBlocks(rig);
-    if (parameters.faithful) {
-        rig.spheres = skinSpheres(table, bodies, parameters.insertions, indexOf);
-        addTwins(rig, anatomy, indexOf);
-        return result;
-    }
     if (rig.rest.empty()) return result;
     const std::vector<bool> mayBePushed = addRows(rig, candidates, indexOf);
     const TriangleMesh local = meshOf(rig.places, rig.triangles);

@@ -3,7 +3,6 @@
 #include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/motion/PoseBlend.h"
-#include "bake/respond/SkinFaithful.h"
 #include "bake/respond/SkinFoundation.h"
 #include "bake/respond/SkinNormals.h"
 #include "bake/table/SkinTable.h"
@@ -29,7 +28,6 @@ struct SkinParameters {
     std::vector<double> attach;    ///< #V in [0,1], how firmly it follows the muscle below it; empty: 1
     bool selfContact = false;      ///< the skin collides with itself too: lip against lip, lid against lid
     int iterations = 60;           ///< most solver iterations for each time that contacts are queried, >= 1
-    bool faithful = false;         ///< [paper] spheres are pushed out of spheres, no elastic sheet
 };
 
 inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
@@ -126,14 +124,14 @@ struct SkinRig {
 
     std::vector<std::uint32_t> vertices; ///< indices into the skin mesh, in the order of a space-filling
                                          ///< curve, then twins
-    std::vector<Vec3> rest;           ///< positions of the vertices, scene units
-    std::vector<Vec3> restNormals;    ///< unit, by the mesh's own winding
-    bool inverted = false;            ///< the mesh is wound inwards; all members below are as if outwards
+    std::vector<Vec3> rest;              ///< positions of the vertices, scene units
+    std::vector<Vec3> restNormals;       ///< unit, by the mesh's own winding
+    bool inverted = false;               ///< the mesh is wound inwards; all members below are as if outwards
     std::vector<std::uint32_t> twins; ///< for each of the last vertices, duplicates along seams: the one at
                                       ///< the same position that it follows
-    std::vector<Tri> triangles; ///< those of touched vertices only
-    std::vector<Tri> across;    ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
-    Lists<SkinFan> fans;        ///< per touched vertex; indices into vertices, then borderPlaces
+    std::vector<Tri> triangles;       ///< those of touched vertices only
+    std::vector<Tri> across;          ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
+    Lists<SkinFan> fans;              ///< per touched vertex; indices into vertices, then borderPlaces
 
     std::vector<Move> places, placeNormals; ///< rest positions and outward normals, run-time lengths
     std::vector<Move> borderPlaces;         ///< untouched corners of fans, run-time lengths
@@ -150,7 +148,6 @@ struct SkinRig {
     std::vector<SkinClearance> clearances;               ///< of the rows
     std::vector<int> starts;                             ///< start triangles of the rows' queries
     SkinFoundation foundation;
-    SkinSpheres spheres; ///< of the faithful mode
 
     /// A pose in the skin's frame, scene units, as the run time has it.
     Pose local(const Pose& pose) const;

@@ -1,6 +1,7 @@
 #include "RealSkins.h"
 #include "SkinMeasure.h"
 
+#include "bake/compare/PushedSkin.h"
 #include "bake/geometry/MeshAudit.h"
 
 #include <ctime>
@@ -125,9 +126,8 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
     const std::vector<double> inRest = depths(couple.skin.vertices, mask.surface);
     const std::vector<double> outRest = skins::poking(mask.surface.vertices, couple.skin, 10 * mm);
 
-    SkinParameters faithful;
-    faithful.faithful = true;
-    SkinResponse skin(couple.rig()), spheres(couple.rig(faithful));
+    SkinResponse skin(couple.rig());
+    compare::PushedSkin spheres(couple.skin, couple.table, couple.muscles);
     constexpr int frames = 60;
     double farthestOff = 0;
     const double volumeBelow = auditMesh(mask.surface).signedVolume;
@@ -145,7 +145,7 @@ TEST_CASE("the frontal mask slides under the skin of the dog's head and the skin
         const skins::Depths in = skins::beyond(depths(places(couple, skin), solid), inRest);
         const skins::Depths out = skins::beyond(
             skins::poking(solid.vertices, {places(couple, skin), couple.skin.triangles}, 10 * mm), outRest);
-        const skins::Depths alone = skins::beyond(depths(places(couple, spheres), solid), inRest);
+        const skins::Depths alone = skins::beyond(depths(spheres.places(), solid), inRest);
         const skins::Strain strain = skins::strain(skin);
         const double off = distance(skin, converged) / largestMove(converged);
         std::cout << " slide " << slide / mm << " mm, skin moves " << largestMove(skin) / mm
