@@ -20,8 +20,12 @@ Lists transpose(const Lists& lists, std::size_t count) {
     return other;
 }
 
-/// The lists that hold some other list whole (of equal lists all but the first), found through the members
-/// of the smaller one.
+/// The member of a list that is in the fewest lists: what holds the list whole is among these.
+Index rarest(const std::vector<Index>& list, const Lists& byMember) {
+    return *std::ranges::min_element(list, {}, [&](Index x) { return byMember[x].size(); });
+}
+
+/// The lists that hold some other list whole (of equal lists all but the first).
 std::vector<bool> supersets(const Lists& lists, const Lists& byMember) {
     std::vector<bool> drop(lists.size(), false);
     std::vector<Index> order(lists.size());
@@ -30,14 +34,9 @@ std::vector<bool> supersets(const Lists& lists, const Lists& byMember) {
                      [&](Index x, Index y) { return lists[x].size() < lists[y].size(); });
     for (Index small : order) {
         if (drop[small] || lists[small].empty()) continue;
-        const Index rare = *std::min_element(lists[small].begin(), lists[small].end(), [&](Index x, Index y) {
-            return byMember[x].size() < byMember[y].size();
-        });
-        for (Index large : byMember[rare]) {
-            if (large == small || drop[large] || lists[large].size() < lists[small].size()) continue;
-            drop[large] = std::includes(lists[large].begin(), lists[large].end(), lists[small].begin(),
-                                        lists[small].end());
-        }
+        for (Index large : byMember[rarest(lists[small], byMember)])
+            if (large != small && !drop[large] && lists[large].size() >= lists[small].size())
+                drop[large] = std::ranges::includes(lists[large], lists[small]);
     }
     return drop;
 }
@@ -46,21 +45,13 @@ std::vector<bool> supersets(const Lists& lists, const Lists& byMember) {
 std::vector<bool> subsets(const Lists& lists, const Lists& byMember) {
     std::vector<bool> drop(lists.size(), false);
     for (Index small = 0; small < lists.size(); ++small) {
-        if (lists[small].empty()) {
-            drop[small] = true;
-            continue;
-        }
-        const Index rare = *std::min_element(lists[small].begin(), lists[small].end(), [&](Index x, Index y) {
-            return byMember[x].size() < byMember[y].size();
-        });
-        for (Index large : byMember[rare]) {
+        drop[small] = lists[small].empty();
+        if (drop[small]) continue;
+        drop[small] = std::ranges::any_of(byMember[rarest(lists[small], byMember)], [&](Index large) {
             const bool goes = lists[large].size() > lists[small].size() ||
                               (lists[large].size() == lists[small].size() && large < small);
-            if (!goes || drop[large]) continue;
-            drop[small] = std::includes(lists[large].begin(), lists[large].end(), lists[small].begin(),
-                                        lists[small].end());
-            if (drop[small]) break;
-        }
+            return goes && !drop[large] && std::ranges::includes(lists[large], lists[small]);
+        });
     }
     return drop;
 }
