@@ -102,6 +102,29 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
     return text + "\n";
 }
 
+/// What came of all steps together.
+struct Sums {
+    struct OfSkin {
+        double seconds = 0;
+        double pushed = 0;   ///< at worst
+        SkinFollowing worst; ///< how it follows its bones
+    };
+    std::map<std::string, int> statuses;
+    double deepest = 0, jointSeconds = 0;
+    std::vector<OfSkin> skins;
+
+    void add(const Player::Step& step, const std::vector<SkinFollowing>& following) {
+        ++statuses[name(step.status)];
+        jointSeconds += step.jointSeconds;
+        for (std::size_t k = 0; k < skins.size(); ++k) {
+            skins[k].seconds += step.skinSeconds[k];
+            skins[k].pushed = std::max(skins[k].pushed, step.pushed[k]);
+            skins[k].worst.worsen(following[k]);
+            deepest = std::max(deepest, step.residualDepths[k]);
+        }
+    }
+};
+
 /// What a skin has done at worst, in words and as data.
 nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, const SkinFollowing& worst,
                             double pushed, const Console& console) {
@@ -129,12 +152,11 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
 }
 
 /// What a step costs on one core, in words; the tool's own measuring of depths is not in it.
-std::string costText(const SceneModel& scene, std::size_t steps, double joints,
-                     const std::vector<double>& skins) {
+std::string costText(const SceneModel& scene, std::size_t steps, const Sums& sums) {
     const auto each = static_cast<double>(std::max<std::size_t>(steps, 1));
-    std::string text = fmt::format("  a step costs {:.3g} us for the joints", 1e6 * joints / each);
-    for (std::size_t k = 0; k < skins.size(); ++k)
-        text += fmt::format(", {:.3g} ms for {}", 1e3 * skins[k] / each, scene.skins[k].path);
+    std::string text = fmt::format("  a step costs {:.3g} us for the joints", 1e6 * sums.jointSeconds / each);
+    for (std::size_t k = 0; k < sums.skins.size(); ++k)
+        text += fmt::format(", {:.3g} ms for {}", 1e3 * sums.skins[k].seconds / each, scene.skins[k].path);
     return text + ", on one core";
 }
 
@@ -203,23 +225,12 @@ void play(const PlayArguments& arguments, const Console& console) {
     std::vector<SkinCosts> costs(scene.skins.size());
     if (arguments.timings) player.charge(costs);
     std::string text = header(scene);
-    std::map<std::string, int> statuses;
-    double deepest = 0, jointSeconds = 0;
-    std::vector<double> skinSeconds(scene.skins.size(), 0);
-    std::vector<SkinFollowing> following(scene.skins.size());
-    std::vector<double> pushed(scene.skins.size(), 0);
+    Sums sums;
+    sums.skins.resize(scene.skins.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
-        ++statuses[name(step.status)];
-        jointSeconds += step.jointSeconds;
-        for (std::size_t skin = 0; skin < skinSeconds.size(); ++skin) {
-            skinSeconds[skin] += step.skinSeconds[skin];
-            pushed[skin] = std::max(pushed[skin], step.pushed[skin]);
-        }
-        for (double depth : step.residualDepths) deepest = std::max(deepest, depth);
-        const std::vector<SkinFollowing> now = player.following();
-        for (std::size_t skin = 0; skin < now.size(); ++skin) following[skin].worsen(now[skin]);
+        sums.add(step, player.following());
         if (!arguments.meshes.empty())
             writeFileAtomically(frameName(arguments.meshes, static_cast<unsigned int>(k)),
                                 objText(scene, player.worldMeshes()));
@@ -227,22 +238,22 @@ void play(const PlayArguments& arguments, const Console& console) {
     if (!arguments.output.empty()) writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{}{}", counted(steps.size(), "step"),
                             arguments.output.empty() ? "" : ", wrote " + arguments.output));
-    for (const auto& [status, count] : statuses) console.say(fmt::format("  {:<10}{}", status, count));
-    console.say(costText(scene, steps.size(), jointSeconds, skinSeconds));
+    for (const auto& [status, count] : sums.statuses) console.say(fmt::format("  {:<10}{}", status, count));
+    console.say(costText(scene, steps.size(), sums));
     if (!scene.skins.empty())
-        console.say("  deepest residual of a skin " + lengthText(deepest, scene.metersPerUnit) +
+        console.say("  deepest residual of a skin " + lengthText(sums.deepest, scene.metersPerUnit) +
                     ": so far it is in what is below it, beyond its depth at rest");
     nlohmann::json skins = nlohmann::json::array();
-    for (std::size_t k = 0; k < scene.skins.size(); ++k) {
-        skins.push_back(sayFollowing(scene, scene.skins[k], following[k], pushed[k], console));
-        if (arguments.timings)
-            skins.back()["costs"] = sayParts(scene.skins[k], costs[k], skinSeconds[k], console);
+    for (std::size_t k = 0; k < sums.skins.size(); ++k) {
+        const auto& [seconds, pushed, worst] = sums.skins[k];
+        skins.push_back(sayFollowing(scene, scene.skins[k], worst, pushed, console));
+        if (arguments.timings) skins.back()["costs"] = sayParts(scene.skins[k], costs[k], seconds, console);
     }
     console.print({{"steps", steps.size()},
-                   {"statuses", statuses},
+                   {"statuses", sums.statuses},
                    {"skins", skins},
                    {"outsideLimits", outside},
-                   {"residualDepth", deepest},
+                   {"residualDepth", sums.deepest},
                    {"warnings", warnings},
                    {"output", arguments.output}});
 }
