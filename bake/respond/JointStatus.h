@@ -12,6 +12,9 @@ enum class JointStatus {
     Returning, ///< started deeper than the table knows: one bounded step towards a pose known to be free
 };
 
-const char* name(JointStatus status);
+inline const char* name(JointStatus status) {
+    constexpr const char* names[] = {"free", "blocked", "slid", "separated", "stuck", "returning"};
+    return names[static_cast<int>(status)];
+}
 
 } // namespace tss

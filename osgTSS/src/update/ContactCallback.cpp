@@ -1,7 +1,0 @@
-#include <osgTSS/ContactCallback>
-
-namespace osgTSS {
-
-ContactCallback::~ContactCallback() = default;
-
-} // namespace osgTSS
