@@ -119,8 +119,6 @@ std::vector<Part> divide(const MedialSurface& surface, const Solid& solid, const
     return result;
 }
 
-} // namespace
-
 EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels) {
     EnclosingTree tree;
     const MedialSurface surface = medialSurface(mesh, solid);
@@ -150,6 +148,8 @@ EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, 
     }
     return tree;
 }
+
+} // namespace
 
 std::unique_ptr<CollisionMethod> makeAdaptiveMedial(const ComparedPair& problem, int levels) {
     return makeMedialTrees(

@@ -134,8 +134,6 @@ std::vector<Vec3> someCentres(const MedialSurface& surface, const std::vector<st
     return centres;
 }
 
-} // namespace
-
 EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels) {
     EnclosingTree tree;
     const MedialSurface surface = medialSurface(mesh, solid);
@@ -183,6 +181,8 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
     });
     return tree;
 }
+
+} // namespace
 
 std::unique_ptr<CollisionMethod> makeHubbard(const ComparedPair& problem, int levels) {
     return makeMedialTrees(problem, levels, buildHubbard, "medial-hubbard-",

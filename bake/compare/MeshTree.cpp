@@ -118,8 +118,7 @@ double leafProtrusion(const EnclosingTree& tree, const Solid& solid) {
 MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid) {
     MedialSurface surface;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        splitInto({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, solid.diagonal() / 40,
-                  surface.elements);
+        splitInto(mesh.corners(t), solid.diagonal() / 40, surface.elements);
     const SharedCorners corners = cornersOf(surface.elements);
     surface.balls = innerPoles(corners.points, corners.normals);
     std::vector<std::uint32_t> last(corners.points.size(), UINT32_MAX);

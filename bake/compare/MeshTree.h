@@ -11,14 +11,6 @@ namespace tss::compare {
 // Sphere trees made from a mesh: each node's ball contains the piece of surface below it, but not the balls
 // below it. What touches is found all the same, since every ball above a common point contains it.
 
-EnclosingTree buildOctree(const TriangleMesh& mesh, int levels);
-EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int levels);
-EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, int levels);
-
-/// The largest sphere that rests against the middle of each triangle from inside, one per triangle; radius 0:
-/// none. (No ball inside can rest against a convex corner.)
-SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid);
-
 /// The trees of the two bodies of a pair.
 struct BodyTrees {
     EnclosingTree a, b;

@@ -34,8 +34,6 @@ struct Cube {
     std::vector<std::uint32_t> triangles;
 };
 
-} // namespace
-
 EnclosingTree buildOctree(const TriangleMesh& mesh, int levels) {
     EnclosingTree tree;
     if (mesh.empty()) return tree;
@@ -68,6 +66,8 @@ EnclosingTree buildOctree(const TriangleMesh& mesh, int levels) {
     }
     return tree;
 }
+
+} // namespace
 
 std::unique_ptr<CollisionMethod> makeOctree(const ComparedPair& problem, int levels) {
     const Stopwatch watch;

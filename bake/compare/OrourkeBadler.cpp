@@ -16,15 +16,14 @@ Vec3 centroid(const TriangleMesh& mesh, std::size_t t) {
     return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
 }
 
-} // namespace
-
+/// The largest sphere that rests against the middle of each triangle from inside, one per triangle; radius 0:
+/// none. (No ball inside can rest against a convex corner.)
 SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid) {
     SphereSet resting(mesh.triangles.size());
     parallelFor(resting.size(), [&](std::size_t i) {
         const Vec3 p = centroid(mesh, i);
         resting[i] = {p, 0};
-        const Vec3 area =
-            (mesh.corner(i, 1) - mesh.corner(i, 0)).cross(mesh.corner(i, 2) - mesh.corner(i, 0));
+        const Vec3 area = mesh.areaNormal(i);
         if (!(area.norm() > 0)) return;
         // Shrink about the point until nothing of the surface is inside: each round the sphere is made to
         // pass through the nearest surface point.
@@ -45,8 +44,6 @@ SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid) {
     });
     return resting;
 }
-
-namespace {
 
 /// Largest first, a sphere is kept when it rests against a point that no kept one comes near to.
 SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double near) {

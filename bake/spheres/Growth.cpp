@@ -32,9 +32,7 @@ public:
     GrownSphere grow(int triangle) const {
         GrownSphere grown;
         grown.met = {triangle};
-        const Vec3 normal = (mesh_.corner(triangle, 1) - mesh_.corner(triangle, 0))
-                                .cross(mesh_.corner(triangle, 2) - mesh_.corner(triangle, 0))
-                                .stableNormalized();
+        const Vec3 normal = mesh_.areaNormal(static_cast<std::size_t>(triangle)).stableNormalized();
         Line line{centroids_[triangle], -normal, lengths_.start};
         while (growAlong(line, grown) && grown.met.size() < 4) {
             // The line through the middle of the points met, m_L or m_T, and the centre so far.

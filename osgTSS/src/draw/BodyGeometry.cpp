@@ -28,7 +28,7 @@ struct ShadedMesh {
 
 /// Unit; zero for a triangle without area.
 Vec3 faceNormal(const tss::TriangleMesh& mesh, std::size_t t) {
-    const Vec3 cross = (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+    const Vec3 cross = mesh.areaNormal(t);
     const double area = cross.norm();
     return area > 0 ? Vec3(cross / area) : Vec3::Zero();
 }
