@@ -40,17 +40,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<CollisionMethod> makeFcl(const ComparedPair& problem, FclTree tree) {
-    switch (tree) {
-    case FclTree::Obb:
-        return std::make_unique<FclMethod<fcl::OBBd>>(problem, "obb", "");
-    case FclTree::Aabb:
-        return std::make_unique<FclMethod<fcl::AABBd>>(
-            problem, "aabb", "; FCL copies, moves and refits the moving tree in each query");
-    case FclTree::Obbrss:
-        break;
-    }
-    return std::make_unique<FclMethod<fcl::OBBRSSd>>(problem, "obbrss", "");
+std::unique_ptr<CollisionMethod> makeFcl(const ComparedPair& problem, const std::string& volume) {
+    if (volume == "obb") return std::make_unique<FclMethod<fcl::OBBd>>(problem, volume, "");
+    if (volume == "obbrss") return std::make_unique<FclMethod<fcl::OBBRSSd>>(problem, volume, "");
+    return std::make_unique<FclMethod<fcl::AABBd>>(
+        problem, "aabb", "; FCL copies, moves and refits the moving tree in each query");
 }
 
 } // namespace tss::compare

@@ -88,8 +88,8 @@ std::size_t leadingDof(const ComparedPair& problem);
 
 // Trees on the meshes ----------------------------------------------------------------------------------
 
-enum class FclTree { Obbrss, Obb, Aabb };
-std::unique_ptr<CollisionMethod> makeFcl(const ComparedPair& problem, FclTree tree);
+/// FCL on the triangles. volume: of its trees, "obbrss", "obb" or "aabb".
+std::unique_ptr<CollisionMethod> makeFcl(const ComparedPair& problem, const std::string& volume);
 
 /// Bullet's GImpact, one pair of concave meshes, through its own dispatcher. Not to be shared by threads.
 std::unique_ptr<CollisionMethod> makeGimpact(const ComparedPair& problem);

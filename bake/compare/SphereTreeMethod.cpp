@@ -3,24 +3,6 @@
 
 namespace tss::compare {
 
-namespace {
-
-std::string enclosureName(Enclosure enclosure) {
-    switch (enclosure) {
-    case Enclosure::Box:
-        return "box";
-    case Enclosure::Points:
-        return "points";
-    case Enclosure::Balls:
-        return "balls";
-    case Enclosure::CoreSet:
-        break;
-    }
-    return "coreset";
-}
-
-} // namespace
-
 std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, TreeOf of, int arity,
                                                 Enclosure enclosure) {
     const Stopwatch watch;
@@ -28,7 +10,8 @@ std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, Tre
     BodyTrees trees{buildEnclosingTree(all ? problem.a : problem.table.a, arity, enclosure),
                     buildEnclosingTree(all ? problem.b : problem.table.b, arity, enclosure)};
     const double seconds = watch.seconds();
-    const std::string how = enclosureName(enclosure);
+    constexpr const char* names[] = {"box", "points", "balls", "coreset"}; // in the order of Enclosure
+    const std::string how = names[static_cast<std::size_t>(enclosure)];
     const Table& table = problem.table;
     // The spheres that a table uses are some of the model's: their contacts are among the model's, so that
     // they are no earlier; and all tests of the table are among their pairs, so that they miss no more than

@@ -143,9 +143,8 @@ void addMotionMethods(MethodAdder& adder, const ComparedPair& problem, bool quic
 }
 
 void addMeshMethods(MethodAdder& adder, const ComparedPair& problem) {
-    adder.add("fcl-obbrss", [&] { return makeFcl(problem, FclTree::Obbrss); });
-    adder.add("fcl-obb", [&] { return makeFcl(problem, FclTree::Obb); });
-    adder.add("fcl-aabb", [&] { return makeFcl(problem, FclTree::Aabb); });
+    for (const std::string volume : {"obbrss", "obb", "aabb"})
+        adder.add("fcl-" + volume, [&] { return makeFcl(problem, volume); });
     adder.add("bullet-gimpact", [&] { return makeGimpact(problem); });
 }
 

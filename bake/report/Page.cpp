@@ -1,5 +1,3 @@
-#include "bake/report/Page.h"
-
 #include "bake/report/Columns.h"
 #include "bake/report/Report.h"
 

@@ -5,7 +5,6 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/report/MethodSet.h"
-#include "bake/report/Page.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -58,7 +57,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
     const Stopwatch watch;
     Report result;
     result.scene = std::filesystem::path(sceneFile).filename().string();
-    result.machine = thisMachine();
+    result.machine = compare::thisMachine();
     result.options = options;
     const auto wanted = [&](const std::string& path) {
         return options.pairs.empty() || std::ranges::find(options.pairs, path) != options.pairs.end();

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/compare/Machine.h"
 #include "bake/report/Picture.h"
 #include "bake/report/Plots.h"
 #include "bake/report/SkinStudy.h"
@@ -9,7 +10,7 @@ namespace tss::reporting {
 /// Everything that a report says.
 struct Report {
     std::string scene; ///< file name without folders
-    Machine machine;
+    compare::Machine machine;
     ReportOptions options;
     std::vector<PairStudy> pairs;
     std::vector<SkinStudy> skins;
@@ -29,5 +30,12 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
 std::string markdownOf(const Report& report);
 std::string csvOf(const Report& report);
 std::string jsonOf(const Report& report);
+
+/// The report as a page of its own, index.html: one file that fetches nothing, from the data of report.json
+/// and pictures of the pairs.
+std::string pageOf(const Report& report);
+
+/// That page, with REPORT_DATA where its data goes.
+std::string_view pageTemplate();
 
 } // namespace tss::reporting

@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/base/Progress.h"
 #include "bake/report/Accuracy.h"
-#include "bake/report/Machine.h"
 #include "bake/report/MethodSet.h"
 #include "bake/report/Timing.h"
 

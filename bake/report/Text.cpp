@@ -60,7 +60,7 @@ std::string pictureText(const std::vector<Plot>& plots, const std::string& part)
 }
 
 std::string markdownOf(const Report& report) {
-    const Machine& machine = report.machine;
+    const compare::Machine& machine = report.machine;
     std::string text = fmt::format(
         "# Error against run time: {}\n\n"
         "Made by `tss report {}{}`, seed {}, in {:.0f} s on {} ({} cores), {}, {}, kernels in {}; {}.\n\n",

@@ -74,8 +74,7 @@ TEST_CASE("each method's verdicts agree with the meshes within its own stated er
     methods.push_back(makeHubbard(problem, 3));
     methods.push_back(makeAdaptiveMedial(problem, 3));
     methods.push_back(makeOrourkeBadler(problem));
-    for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Aabb})
-        methods.push_back(makeFcl(problem, tree));
+    for (const char* volume : {"obbrss", "obb", "aabb"}) methods.push_back(makeFcl(problem, volume));
     methods.push_back(makeGimpact(problem));
     const EnclosingTree a = buildEnclosingTree(problem.a, 8, Enclosure::Balls),
                         b = buildEnclosingTree(problem.b, 8, Enclosure::Balls);

@@ -1,11 +1,16 @@
-#include "bake/report/Machine.h"
+#include "bake/compare/Machine.h"
 
-#include "bake/compare/Versions.h"
-
+#include <CGAL/version.h>
+#include <LinearMath/btScalar.h>
+#include <fcl/config.h>
 #include <fstream>
+#include <hwy/highway.h>
 #include <thread>
 
-namespace tss::reporting {
+namespace tss::compare {
+
+#define TSS_TEXT_OF(x) #x
+#define TSS_TEXT(x) TSS_TEXT_OF(x)
 
 Machine thisMachine() {
     Machine machine;
@@ -25,9 +30,11 @@ Machine thisMachine() {
 #else
     machine.build = "with assertions: times are not comparable";
 #endif
-    machine.vectors = compare::vectorInstructions();
-    machine.libraries = compare::libraryVersions();
+    const std::int64_t supported = hwy::SupportedTargets();
+    machine.vectors = hwy::TargetName(supported & -supported); // the best is the lowest bit
+    machine.libraries = "FCL " FCL_VERSION ", Bullet " + std::to_string(BT_BULLET_VERSION / 100) + "." +
+                        std::to_string(BT_BULLET_VERSION % 100) + ", CGAL " TSS_TEXT(CGAL_VERSION);
     return machine;
 }
 
-} // namespace tss::reporting
+} // namespace tss::compare
