@@ -2,6 +2,7 @@
 
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/OpenEdges.h"
 #include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
@@ -9,37 +10,10 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 namespace tss {
 
 namespace {
-
-/// A directed edge that triangles run through `excess` times more often than its reverse.
-struct OpenEdge {
-    int from, to, excess;
-};
-
-/// Lower vertex, upper vertex, how much more often it is run through from the lower one than from the upper.
-using EdgeUse = std::tuple<int, int, int>;
-
-EdgeUse edgeUse(int from, int to, int times) {
-    return {std::min(from, to), std::max(from, to), from < to ? times : -times};
-}
-
-std::vector<OpenEdge> unbalanced(std::vector<EdgeUse> edges) {
-    std::sort(edges.begin(), edges.end());
-    std::vector<OpenEdge> open;
-    for (std::size_t i = 0; i < edges.size();) {
-        const auto [a, b, ignored] = edges[i];
-        int sum = 0;
-        for (; i < edges.size() && std::get<0>(edges[i]) == a && std::get<1>(edges[i]) == b; ++i)
-            sum += std::get<2>(edges[i]);
-        if (sum > 0 && a != b) open.push_back({a, b, sum});
-        if (sum < 0 && a != b) open.push_back({b, a, -sum});
-    }
-    return open;
-}
 
 /// Vertices nearer to each other than this share of the mesh's diagonal count as one.
 constexpr double weldShare = 1e-6;

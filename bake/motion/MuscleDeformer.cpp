@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace tss {
@@ -31,18 +30,14 @@ Muscle checked(Muscle muscle) {
         muscle.fibre = {Vec3::Zero(), Vec3::UnitX()};
         muscle.form = MuscleForm::Tube;
     }
-    std::map<std::pair<int, int>, int> balance;
     for (const Tri& t : mesh.triangles)
-        for (int k = 0; k < 3; ++k) {
-            const int a = t[k], b = t[(k + 1) % 3];
-            if (a < 0 || a >= count) throw InputError("the surface of a muscle has an index out of range");
-            if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
-        }
-    for (const auto& [edge, sum] : balance)
-        if (sum != 0 && !rigid)
-            throw InputError("the surface of a muscle must be closed: its volume is to be kept");
+        if (t.minCoeff() < 0 || t.maxCoeff() >= count)
+            throw InputError("the surface of a muscle has an index out of range");
     for (const Vec3& v : mesh.vertices)
         if (!v.allFinite()) throw InputError("the surface of a muscle has a vertex that is not finite");
+    if (const double open = rigid ? 0 : openShare(mesh); open > mostOpenShare)
+        throw InputError("the openings of a muscle's surface are " + std::to_string(std::lround(100 * open)) +
+                         " % as large as it: it must be closed, or nearly, since its volume is to be kept");
     const Eigen::AlignedBox3d box = bounds(mesh);
     for (const Vec3& p : muscle.fibre)
         if (!rigid && p.allFinite() && box.exteriorDistance(p) > farthestFibre * box.diagonal().norm())
@@ -55,7 +50,8 @@ Muscle checked(Muscle muscle) {
 
 /// Throws for a shell that is inside out. One inside of another is a hollow, and is to be.
 void checkShells(const TriangleMesh& mesh) {
-    const std::vector<TriangleMesh> shells = connectedParts(mesh);
+    std::vector<TriangleMesh> shells = connectedParts(mesh);
+    for (TriangleMesh& shell : shells) shell = closed(std::move(shell));
     for (const TriangleMesh& shell : shells) {
         if (!(enclosedVolume(shell.vertices, shell.triangles) < 0)) continue;
         const Eigen::AlignedBox3d box = bounds(shell);
@@ -76,9 +72,9 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
     : muscle_(checked(std::move(muscle))),
       ring_(muscle_.form == MuscleForm::Ring ? std::optional<MuscleRing>(muscle_.fibre) : std::nullopt),
       fibre_(ring_ ? std::vector<Vec3>{Vec3::Zero(), Vec3::UnitX()} : muscle_.fibre),
-      locator_(muscle_.surface) {
+      locator_(muscle_.surface), closed_(closed(muscle_.surface).triangles) {
     const TriangleMesh& mesh = muscle_.surface;
-    volume_ = enclosedVolume(mesh.vertices, mesh.triangles);
+    volume_ = enclosedVolume(mesh.vertices, closed_);
     if (!enclosesVolume(mesh) && !rigid())
         throw InputError("the surface of a muscle is inside out or flat: its volume is not positive");
     if (!rigid()) checkShells(mesh);
@@ -118,7 +114,7 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
 bool MuscleDeformer::isValidAt(double activation) const {
     constexpr double kept = 1e-6; // of the volume
     const std::vector<Vec3> now = vertices(activation);
-    if (!(std::abs(enclosedVolume(now, muscle_.surface.triangles) - volume_) <= kept * volume_)) return false;
+    if (!(std::abs(enclosedVolume(now, closed_) - volume_) <= kept * volume_)) return false;
     for (std::size_t v = 0; v < now.size(); ++v)
         if (!(ring_->outward(now[v], points_[v].s) > 0)) return false;
     return true;
@@ -170,7 +166,7 @@ MuscleState MuscleDeformer::state(double activation) const {
         p[v] = x.rest - centre + shiftAt(x, state.activation);
         q[v] = thickeningGain(x.s, state.activation) * x.offset;
     }
-    state.thickening = swellingFor(volume_, swollenVolume(volume_, p, q, muscle_.surface.triangles), 1);
+    state.thickening = swellingFor(volume_, swollenVolume(volume_, p, q, closed_), 1);
     return state;
 }
 

@@ -41,9 +41,9 @@ inline bool isRigid(const Muscle& muscle) {
 /// shape bit for bit; a < 0 stretches.
 class MuscleDeformer {
 public:
-    /// Throws InputError: an open, flat or inside-out surface of what is not rigid, a shell of it that is
-    /// inside out, a bad fibre, a contraction that would turn the muscle over within its activation range,
-    /// take a ring through its own middle, or leave it none with the volume at rest.
+    /// Throws InputError: a flat or inside-out surface of what is not rigid, or one with large openings, a
+    /// shell of it that is inside out, a bad fibre, a contraction that would turn the muscle over within its
+    /// activation range, take a ring through its own middle, or leave it none with the volume at rest.
     explicit MuscleDeformer(Muscle muscle);
     MuscleDeformer(const MuscleDeformer&) = delete;
     MuscleDeformer& operator=(const MuscleDeformer&) = delete;
@@ -53,6 +53,8 @@ public:
     bool rigid() const { return isRigid(muscle_); }
     const MuscleFibre& fibre() const { return fibre_; } ///< not of a ring
     double restVolume() const { return volume_; }
+    /// Those of the surface, then those that close its openings: what the volume is enclosed by.
+    const std::vector<Tri>& closedTriangles() const { return closed_; }
 
     /// a is clamped to the muscle's activation range; NaN counts as 0.
     MuscleState state(double activation) const;
@@ -90,6 +92,7 @@ private:
     std::optional<MuscleRing> ring_;
     MuscleFibre fibre_;
     ClosestPointQuery locator_;
+    std::vector<Tri> closed_;         ///< see closedTriangles()
     std::vector<Vec3> normals_;       ///< #V
     std::vector<MusclePoint> points_; ///< #V
     std::vector<double> shares_;      ///< #V, see Muscle::insertionShares

@@ -1,5 +1,7 @@
 #include "bake/motion/MuscleMedial.h"
 
+#include "bake/motion/MuscleVolume.h"
+
 #include <algorithm>
 
 namespace tss {
@@ -35,7 +37,7 @@ double touchingBall(const TriangleMesh& mesh, const Vec3& x, const Vec3& n, doub
 void scaleToVolume(const TriangleMesh& mesh, std::vector<Vec3>& offsets) {
     const Vec3& o = mesh.vertices.front();
     double volume = 0, thickened = 0;
-    for (const Tri& t : mesh.triangles) {
+    for (const Tri& t : closed(mesh).triangles) {
         const Vec3 a = mesh.vertices[t[0]] - o, b = mesh.vertices[t[1]] - o, c = mesh.vertices[t[2]] - o;
         const Vec3 n = (b - a).cross(c - a) / 6;
         volume += n.dot(a);

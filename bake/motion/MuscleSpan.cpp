@@ -18,8 +18,8 @@ Pose blended(double share, const DualPose& far) {
 } // namespace
 
 MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
-    : triangles_(muscle.muscle().surface.triangles), side_(muscle.muscle().side),
-      shares_(muscle.insertionShares()), gradients_(shares_.size(), Vec3::Zero()) {
+    : closed_(muscle.closedTriangles()), side_(muscle.muscle().side), shares_(muscle.insertionShares()),
+      gradients_(shares_.size(), Vec3::Zero()) {
     const std::vector<MusclePoint>& points = muscle.surfacePoints();
     const TriangleMesh& surface = muscle.muscle().surface;
     swelling_ = medialOffsets(surface, ClosestPointQuery(surface), vertexNormals(surface));
@@ -27,7 +27,7 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
         swelling_[v] *= 2 * std::sqrt(std::max(shares_[v] * (1 - shares_[v]), 0.0)) / unit;
     // The mean of the gradients in the triangles around, by area.
     std::vector<double> area(shares_.size(), 0);
-    for (const Tri& t : triangles_) {
+    for (const Tri& t : surface.triangles) {
         const Vec3& a = points[t[0]].rest;
         const Vec3 u = points[t[1]].rest - a, v = points[t[2]].rest - a, n = u.cross(v);
         const double twice = n.norm();
@@ -44,7 +44,7 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
         if (area[v] > 0) gradients_[v] /= area[v];
     std::vector<Vec3> rest;
     for (const MusclePoint& p : points) rest.push_back((p.rest - points.front().rest) / unit);
-    slope_ = swollenVolume(0, rest, swelling_, triangles_)[1];
+    slope_ = swollenVolume(0, rest, swelling_, closed_)[1];
 }
 
 std::vector<Pose> MuscleSpan::posesAt(const Pose& far) const {
@@ -68,12 +68,12 @@ double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> p
     std::vector<Vec3> now(places.size()), out(places.size());
     const std::vector<Vec3> none(places.size(), Vec3::Zero());
     for (std::size_t v = 0; v < places.size(); ++v) now[v] = places[v] - middle;
-    const double wanted = swollenVolume(0, now, none, triangles_)[0] / 6;
+    const double wanted = swollenVolume(0, now, none, closed_)[0] / 6;
     for (std::size_t v = 0; v < places.size(); ++v) {
         now[v] = poses[v] * places[v] - middle;
         out[v] = poses[v].linear() * swelling_[v];
     }
-    return boundedSwelling(swollenVolume(wanted, now, out, triangles_), leastSlope * slope_, least, most);
+    return boundedSwelling(swollenVolume(wanted, now, out, closed_), leastSlope * slope_, least, most);
 }
 
 double MuscleSpan::swell(const Pose& far, std::span<const Vec3> places) const {

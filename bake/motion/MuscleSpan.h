@@ -31,7 +31,7 @@ private:
     std::vector<Pose> posesAt(const Pose& far) const;
     double swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const;
 
-    std::vector<Tri> triangles_;
+    std::vector<Tri> closed_;     ///< MuscleDeformer::closedTriangles()
     Eigen::Vector4d side_;        ///< Muscle::side
     std::vector<double> shares_;  ///< #V, of the insertion's bone
     std::vector<Vec3> gradients_; ///< #V, gradient of the shares along the surface, per length

@@ -1,7 +1,10 @@
 #include "bake/motion/MuscleVolume.h"
 
+#include "bake/geometry/OpenEdges.h"
+
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tss {
 
@@ -14,12 +17,38 @@ double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>&
     return sum / 6;
 }
 
+TriangleMesh closed(TriangleMesh mesh) {
+    const std::vector<Tri> closing = closingTriangles(mesh);
+    mesh.triangles.insert(mesh.triangles.end(), closing.begin(), closing.end());
+    return mesh;
+}
+
+namespace {
+
+double areaOf(const TriangleMesh& mesh) {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.areaNormal(t).norm() / 2;
+    return area;
+}
+
+} // namespace
+
+double openShare(const TriangleMesh& mesh) {
+    const TriangleMesh whole = closed(mesh);
+    std::map<int, Vec3> openings; // by apex; the sum of the normals does not depend on how it is closed
+    for (std::size_t t = mesh.triangles.size(); t < whole.triangles.size(); ++t)
+        openings.try_emplace(whole.triangles[t][2], Vec3::Zero()).first->second += whole.areaNormal(t);
+    double open = 0;
+    for (const auto& [apex, normal] : openings) open += normal.norm() / 2;
+    const double area = areaOf(mesh);
+    return area > 0 ? open / area : 0;
+}
+
 bool enclosesVolume(const TriangleMesh& mesh) {
     constexpr double flat = 1e-9; // mean thickness, as a share of the size
     if (mesh.empty()) return false;
-    double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.areaNormal(t).norm() / 2;
-    return enclosedVolume(mesh.vertices, mesh.triangles) > flat * area * diagonal(mesh);
+    const double volume = enclosedVolume(mesh.vertices, closed(mesh).triangles);
+    return volume > flat * areaOf(mesh) * diagonal(mesh);
 }
 
 std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,

@@ -9,7 +9,15 @@ namespace tss {
 /// The volume enclosed by a closed mesh, positive when it is outward oriented.
 double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
 
-/// Whether the volume of a closed mesh is positive by more than the rounding of a flat one.
+/// The mesh with its openings closed: what the volume of a muscle is that of.
+TriangleMesh closed(TriangleMesh mesh);
+
+/// How large the openings of a mesh are, each seen from where it is seen largest, as a share of its area.
+double openShare(const TriangleMesh& mesh);
+/// Openings larger than this leave it to guess what the volume of a muscle is.
+constexpr double mostOpenShare = 0.25;
+
+/// Whether the volume of a mesh, its openings closed, is positive by more than the rounding of a flat one.
 bool enclosesVolume(const TriangleMesh& mesh);
 
 /// Six times the volume of a closed mesh whose vertices are places + k swelling, less six times `wanted`: a

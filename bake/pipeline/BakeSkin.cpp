@@ -46,7 +46,7 @@ constexpr double worthSaying = 0.01; ///< of the volume
 /// By how much of its volume a muscle is off at worst where its bones come to, at rest and fully active.
 double worstVolume(const MuscleDeformer& muscle, const std::vector<DualPose>& far, const Pose& toSkin) {
     const MuscleSpan span(muscle);
-    const std::vector<Tri>& triangles = muscle.muscle().surface.triangles;
+    const std::vector<Tri>& triangles = muscle.closedTriangles();
     double worst = 0;
     for (const double activation : {muscle.muscle().activationLower, muscle.muscle().activationUpper}) {
         const std::vector<Vec3> rest = muscle.vertices(activation);

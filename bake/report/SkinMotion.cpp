@@ -85,8 +85,8 @@ void studyStep(SkinMotionStudy& study, const Played& played, const BelowSkin& be
     for (std::size_t m = 0; m < below.muscles().size(); ++m) {
         const MuscleDeformer& muscle = *below.muscles()[m];
         if (muscle.rigid()) continue;
-        const double volume = enclosedVolume(below.vertices(m, asked.activations, asked.poses),
-                                             muscle.muscle().surface.triangles);
+        const double volume =
+            enclosedVolume(below.vertices(m, asked.activations, asked.poses), muscle.closedTriangles());
         study.muscleVolume = std::max(study.muscleVolume, std::abs(volume / muscle.restVolume() - 1));
     }
 }

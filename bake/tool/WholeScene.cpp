@@ -160,12 +160,19 @@ public:
         const int body = addBody(named, named.name + "Surface", placement, {0.62, 0.20, 0.18});
         model.body = body;
         const TriangleMesh& mesh = scene_.bodies[body].mesh;
-        if (!auditMesh(mesh).watertight)
-            note(named.name +
-                 " is not closed, and bake will refuse it: a muscle's volume is that of a closed surface");
+        const double open = openShare(mesh);
+        if (open > mostOpenShare)
+            note(fmt::format(
+                "{} is not closed, its openings are {:.0f} % as large as it, and bake will refuse "
+                "it: a muscle's volume is to be kept",
+                named.name, 100 * open));
         else if (!enclosesVolume(mesh))
             note(named.name + " is flat or inside out, and bake will refuse it: expected a muscle with a "
                               "volume");
+        else if (open > 0)
+            note(fmt::format("{} is not closed: its openings, {:.2g} % as large as it, count as closed by "
+                             "flat fans",
+                             named.name, 100 * open));
         model.muscle.surface = mesh;
         if (model.insertionBone == model.bone) model.insertionBone = -1;
         model.muscle.spans = model.insertionBone >= 0;
