@@ -39,10 +39,18 @@ MuscleSweep makeSweep(const SkinSearchMuscle& muscle, const TriangleMesh& skin, 
     return sweep;
 }
 
+/// Two boxes are farther apart than that, by more than rounding.
+bool apart(const Box& a, const Box& b, double distance) {
+    return a.squaredExteriorDistance(b) > (1 + 1e-9) * distance * distance;
+}
+
 /// Some activation brings muscle sphere j within `near` (radius of the skin sphere + travel) of the path of
 /// skin vertex v. The path at an activation is the segment from its rest place to where it is carried; over a
-/// stretch of activations the moving end is boxed in by the segment's own motion.
-bool reaches(const MuscleSweep& sweep, std::size_t j, const Vec3& rest, std::size_t v, double near) {
+/// stretch of activations the moving end is boxed in by the segment's own motion. swept: what the sphere
+/// sweeps; path: what the vertex does.
+bool reaches(const MuscleSweep& sweep, std::size_t j, const Box& swept, const Vec3& rest, std::size_t v,
+             const Box& path, double near) {
+    if (apart(swept, path, near + path.diagonal().norm())) return false;
     const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
     const bool carried = sweep.skin.points > 0;
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -122,20 +130,23 @@ double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, c
 
 /// The same while the bones swing. carried: how far muscle j's own contraction may carry the vertex
 /// meanwhile.
-bool reachesSwung(const MuscleSweep& sweep, std::size_t j, const SwungPaths& paths, double near,
-                  double carried) {
+bool reachesSwung(const MuscleSweep& sweep, std::size_t j, const Box& swept, const SwungPaths& paths,
+                  double near, double carried) {
     const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
     for (const std::vector<Vec3>& path : paths)
-        for (std::size_t s = 0; s + 1 < path.size(); ++s)
+        for (std::size_t s = 0; s + 1 < path.size(); ++s) {
+            const double room = near + carried + stepSlack * (path[s + 1] - path[s]).norm();
+            if (apart(swept, Box(path[s]).extend(path[s + 1]), room)) continue;
             for (std::size_t n = 0; n < nodes; ++n) {
                 const std::size_t m = std::min(n + 1, nodes - 1);
-                const double distance = near + carried + stepSlack * (path[s + 1] - path[s]).norm() +
-                                        std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
+                const double distance =
+                    room + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
                 if (squaredDistanceOfSegments(sweep.spheres.positions[n * stride + j],
                                               sweep.spheres.positions[m * stride + j], path[s],
                                               path[s + 1]) <= distance * distance)
                     return true;
             }
+        }
     return false;
 }
 
@@ -168,12 +179,12 @@ std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet&
         return radii[v] + options.travel + (stray.empty() ? 0 : stray[v]);
     };
     // Skin boxes in rising order of their lower x, so that a sphere looks only at a window of them.
-    std::vector<Box> boxes(skin.vertices.size());
+    std::vector<Box> paths(skin.vertices.size()), boxes(skin.vertices.size());
     std::vector<SwungPaths> swung(skin.vertices.size());
     std::vector<double> carried(skin.vertices.size(), 0);
     double widest = 0;
     for (std::size_t v = 0; v < boxes.size(); ++v) {
-        boxes[v] = pathBox(sweep, skin.vertices[v], v);
+        boxes[v] = paths[v] = pathBox(sweep, skin.vertices[v], v);
         carried[v] =
             std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
         swung[v] = swungPaths(options, muscle, static_cast<double>(stop) / (spanStops - 1), sweep.side,
@@ -205,8 +216,8 @@ std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet&
         for (; it != order.end() && boxes[*it].min()[0] <= swept.max()[0]; ++it) {
             const std::uint32_t v = *it;
             if (!boxes[v].intersects(swept)) continue;
-            if (reaches(sweep, j, skin.vertices[v], v, near(v)) ||
-                reachesSwung(sweep, j, swung[v], near(v), carried[v]))
+            if (reaches(sweep, j, swept, skin.vertices[v], v, paths[v], near(v)) ||
+                reachesSwung(sweep, j, swept, swung[v], near(v), carried[v]))
                 found[j].push_back({v, static_cast<std::uint32_t>(j)});
         }
     });
