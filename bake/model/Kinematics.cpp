@@ -288,6 +288,18 @@ std::vector<int> movers(const SceneModel& scene) {
     return mover;
 }
 
+std::vector<int> rigidRoots(const SceneModel& scene) {
+    const std::vector<int> mover = movers(scene);
+    std::vector<int> roots(scene.bodies.size(), -1);
+    for (std::size_t body = 0; body < roots.size(); ++body) {
+        int root = static_cast<int>(body);
+        while (root >= 0 && mover[root] >= 0 && scene.joints[mover[root]].dofs.empty())
+            root = scene.joints[mover[root]].body0;
+        roots[body] = root >= 0 && mover[root] >= 0 ? root : -1;
+    }
+    return roots;
+}
+
 void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers) {
     for (const int index : pair.joints) {
         const Joint& joint = scene.joints[index];

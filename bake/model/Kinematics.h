@@ -57,6 +57,10 @@ std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair);
 /// body0 moves nothing.
 std::vector<int> movers(const SceneModel& scene);
 
+/// Of each body the one that it never moves against, through joints without DOFs, nearest to the root: two
+/// bodies of which that is the same move as one. -1: those that stand in the world.
+std::vector<int> rigidRoots(const SceneModel& scene);
+
 /// Throws InputError where a pair's bodies do not stand as its chain of joints says when these have their
 /// values: a joint of it is not the one that moves its body1. movers: those of the scene.
 void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers);

@@ -281,9 +281,10 @@ private:
                 if (const double distance = query.distance(toBone * vertices[v]); distance < nearest[v])
                     nearest[v] = distance, whose[v] = k;
         }
+        const std::vector<int> roots = rigidRoots(scene_);
         for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
             const auto count = static_cast<double>(std::ranges::count(whose, k));
-            if (k != model.bone && k != model.insertionBone &&
+            if (roots[k] != roots[model.bone] && k != model.insertionBone &&
                 count > most * static_cast<double>(vertices.size()))
                 note(
                     fmt::format("{:.0f} % of the muscle {} lie nearer to {} than to {}, which it moves with: "

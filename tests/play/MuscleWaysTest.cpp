@@ -72,6 +72,27 @@ TEST_CASE("a muscle over two joints goes on where they turn its bones by more th
     }
 }
 
+TEST_CASE("a muscle follows the bone that it lies on where that never moves against its origin's bone") {
+    SceneModel scene = overTwoJoints(0, 100 * degree);
+    scene.joints[0].dofs.clear(); // the bone in the middle is fixed to the first one
+    scene.bodies[0].mesh = boxMesh({-150, -15, -30}, {-90, 15, 0});
+    scene.bodies[1].mesh = boxMesh({-85, -15, -30}, {25, 15, 0});
+    SceneModel whole = scene;
+    whole.bodies[0].mesh = boxMesh({-150, -15, -30}, {25, 15, 0});
+    const auto largest = [](const SceneModel& of, double until) {
+        const Muscle muscle = muscleOf(of, of.muscles[0]);
+        double most = 0;
+        for (std::size_t v = 0; v < muscle.surface.vertices.size(); ++v)
+            if (muscle.surface.vertices[v].x() < until) most = std::max(most, muscle.insertionShares[v]);
+        return most;
+    };
+    CHECK(largest(scene, -20) == Approx(largest(whole, -20)).epsilon(1e-3));
+    CHECK(largest(scene, 100) > 0.9);
+    // One that a joint moves is no such bone.
+    scene.joints[0].dofs = overTwoJoints(0, 100 * degree).joints[0].dofs;
+    CHECK(largest(scene, -20) > 1.2 * largest(whole, -20));
+}
+
 TEST_CASE("where joints turn a muscle by more than half a turn either way it is said to be unclear") {
     SceneModel scene = overTwoJoints(-110 * degree, 110 * degree);
     CHECK(muscleWays(scene, scene.muscles[0]).unclear);

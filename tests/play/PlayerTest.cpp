@@ -91,7 +91,8 @@ TEST_CASE("a muscle under no skin plays: it contracts, and goes with its bone") 
     for (std::size_t v = 0; v < now.size(); ++v) CHECK((now[v] - turned * active[v]).norm() < 1e-9);
     CHECK((active[0] - belly.mesh.vertices[0]).norm() > 0.01);
     CHECK(warnings.empty());
-    scene.muscles[0].muscle.surface.triangles.pop_back();
+    std::vector<Tri>& half = scene.muscles[0].muscle.surface.triangles;
+    half.resize(half.size() / 2);
     Player without(scene, warnings);
     CHECK(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
         return warning.find("/Limb/Muscle does not play") != std::string::npos;
