@@ -298,6 +298,34 @@ TEST_CASE("a pose inside is found over many DOFs, and only while the surfaces th
     CHECK_FALSE(findNested(large, small, motion, 0.4).outer.a);
 }
 
+TEST_CASE("what the effort will not suffice for is given up soon, and a pose inside found all the same") {
+    double done = 0;
+    const auto note = [&](std::string_view, double share) { return done = std::max(done, share), true; };
+    Motion chain;
+    addTurns(chain, {0, 0, 2}, 2);
+    addTurns(chain, {0, 0, 4}, 2);
+    addTurns(chain, {0, 0, 6}, 3);
+    const Solid far(transformed(ellipsoid({0.8, 0.3, 0.3}), Eigen::Affine3d(Eigen::Translation3d(0, 0, 6))));
+    CHECK(findNested(Solid(ellipsoid({1, 0.5, 0.45})), far, chain, 0.05, note).outer.a);
+    CHECK(done > 0.03);
+    CHECK(done < 0.2);
+
+    // Half out of the ball wherever it goes: soon shown where it does not go far, else not at all.
+    const Solid ball(ballMesh(Vec3::Zero(), 1, 2)), spindle(ellipsoid({0.9, 0.3, 0.3}));
+    const auto nesting = [&](double reaches) {
+        Motion motion;
+        for (const Vec3 axis : {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()})
+            motion.dofs.push_back(joints::slide(axis, 0.7 - reaches, 0.7 + reaches));
+        addTurns(motion, Vec3::Zero(), 3);
+        done = 0;
+        return findNested(ball, spindle, motion, 0.05, note);
+    };
+    CHECK(decided(nesting(0.2)));
+    CHECK(done > 0.05); // longer than it takes to tell what will not end
+    CHECK_FALSE(decided(nesting(0.4)));
+    CHECK(done < 0.2);
+}
+
 TEST_CASE("a body crosses another all the while where one point of it stays inside and one outside") {
     TriangleMesh small = ballMesh(Vec3::Zero(), 0.3, 2);
     append(small, ellipsoid({4, 0.1, 0.1})); // goes through, beside the part that is inside
