@@ -32,6 +32,7 @@ public:
         budget_.looks = options.looks;
         budget_.seconds = options.seconds;
         budget_.progress = progress;
+        budget_.toTheEnd = !options.coarser;
     }
 
     CoverResult run() {
@@ -54,8 +55,9 @@ private:
     /// A proof over all of Q within a share of the budget that is left.
     CoverProof prove(const ErrorContract& owed, GrowingCover& cover, double share) {
         CoverBudget part = budget_;
-        const double used = budget_.watch.seconds();
-        if (budget_.seconds > 0) part.seconds = used + share * (budget_.seconds - used);
+        part.watch.restart();
+        if (budget_.seconds > 0)
+            part.seconds = std::max(1e-9, share * (budget_.seconds - budget_.watch.seconds()));
         if (budget_.looks > 0)
             part.looks = std::max<std::uint64_t>(
                 1, static_cast<std::uint64_t>(

@@ -89,10 +89,11 @@ bool CoverBudget::late() const {
 }
 
 bool CoverBudget::spent(std::uint64_t looksUsed, double share) const {
-    if (looks > 0 && looksUsed >= looks) return true;
+    const double used = std::max(looks > 0 ? double(looksUsed) / double(looks) : 0,
+                                 seconds > 0 ? watch.seconds() / seconds : 0);
+    if (used >= 1) return true;
     // From a tenth on: at this rate it would not end.
-    if (looks > 0 && looksUsed >= looks / 10 && share < double(looksUsed) / double(looks)) return true;
-    if (late()) return true;
+    if (toTheEnd && used >= 0.1 && share < used) return true;
     return !report(progress, "certified cover", share);
 }
 

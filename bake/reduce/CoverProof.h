@@ -10,12 +10,13 @@ struct CoverBudget {
     std::uint64_t looks = 0; ///< at pairs of spheres and of nodes, in all cells together; ended by these, the
                              ///< result is the same every time
     double seconds = 0;      ///< since `watch` was made; ended by these, results differ
+    bool toTheEnd = false;   ///< a search that does not come to its end is of no use
     Progress progress;
     Stopwatch watch;
 
     bool late() const; ///< the seconds are over
-    /// Whether to stop, where a share of Q is proven with so many looks: also early, once a tenth of the
-    /// looks shows that they will not suffice.
+    /// Whether to stop, where a share of Q is proven with so many looks. Of a search that is to come to its
+    /// end also early, once a tenth of the looks or seconds shows that they will not suffice.
     bool spent(std::uint64_t looksUsed, double share) const;
 };
 
