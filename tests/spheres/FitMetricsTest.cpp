@@ -90,6 +90,17 @@ TEST_CASE("a sphere about a ball covers it, sticks out by the difference and has
     CHECK(fit.volumeRatio == Approx(1.25 * 1.25 * 1.25).epsilon(0.03));
 }
 
+TEST_CASE("the volume of a body of thin walls is measured as that of a thick one") {
+    // A shell and a plate within it, thinner than what is looked at as a whole.
+    TriangleMesh mesh = ballMesh(Vec3::Zero(), 1, 5), inner = ballMesh(Vec3::Zero(), 0.97, 5);
+    for (Tri& t : inner.triangles) std::swap(t[0], t[1]);
+    append(mesh, inner);
+    append(mesh, boxMesh({-0.5, -0.5, -0.01}, {0.5, 0.5, 0.01}));
+    const double pi = std::acos(-1), shell = 4 / 3. * pi * (1 - std::pow(0.97, 3));
+    CHECK(measureFit(Solid(mesh), SphereSet{{Vec3::Zero(), 1.1}}).volumeRatio ==
+          Approx(4 / 3. * pi * std::pow(1.1, 3) / (shell + 0.02)).epsilon(0.05));
+}
+
 TEST_CASE("a part of the surface is measured by itself") {
     const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
     const Solid solid(box);
