@@ -230,6 +230,20 @@ Level finestToTestAll(const Body& a, const Body& b, const Motion& motion, const 
     return good ? std::move(*good) : std::move(last);
 }
 
+/// About the tolerance from which on all pairs can be tested where these bodies are hollow, from the number
+/// of spheres that hollow bodies take (METHOD 1.7).
+double toTestAllOfHollow(const Body& a, const Body& b, const BakeOptions& options, const Level& solid,
+                         const HollowBodies& hollow) {
+    const auto count = [&](const Body& body, const SphereFit& fit, bool isHollow) {
+        const double own = double(fit.spheres.size());
+        return isHollow ? std::max(own, area(body.mesh) / (3 * solid.tolerance * solid.tolerance)) : own;
+    };
+    const double share = count(a, solid.spheres.a, hollow.a) * count(b, solid.spheres.b, hollow.b) /
+                         static_cast<double>(options.mostTests);
+    const double power = hollow.a && hollow.b ? 4 : 3; // the number of pairs falls with it
+    return solid.tolerance * std::max(1.0, std::pow(share, 1 / power));
+}
+
 } // namespace
 
 double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion) {
@@ -313,8 +327,8 @@ PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motio
     nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
     nesting.undecided = {};
     if (nesting.outer) // hollow bodies take more spheres
-        finest =
-            finestToTestAll(a, b, motion, options, finest.tolerance, finest.tolerance, nesting, progress);
+        finest = finestToTestAll(a, b, motion, options, finest.tolerance,
+                                 toTestAllOfHollow(a, b, options, finest, nesting.outer), nesting, progress);
     PairSpheres spheres = std::move(finest.spheres);
     for (SphereFit* fit : {&spheres.a, &spheres.b}) {
         fit->enclosed = nesting.apart();
