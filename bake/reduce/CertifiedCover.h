@@ -12,8 +12,9 @@ struct CoverOptions {
     ContactRule rule;     ///< of these spheres
     double seconds = 0;   ///< time budget, 0: none. A search ended by time may differ from run to run
     std::uint64_t looks = 0; ///< budget in looks at pairs, 0: none. The same result every time
-    bool coarser = true; ///< where a budget ends, prove the smallest larger epsilon that can be; false: prove
-                         ///< nothing, the epsilon reached is infinity
+    /// Where a budget ends, prove the smallest larger epsilon that can be. False: prove nothing, the epsilon
+    /// reached is infinity, and that comes soon where the budget would not suffice.
+    bool coarser = true;
 };
 
 /// A cover and what is proven about it.
