@@ -45,12 +45,13 @@ const Fields<BakeRecord>& recordFields() {
         field("uniform uint64 tss:candidatePairs", &BakeRecord::candidatePairs, 0, anyNumber,
               "pairs of spheres that can meet"),
         field("uniform uint64 tss:lowerBound", &BakeRecord::lowerBound, 0, anyNumber,
-              "no table with the same answers has fewer tests"),
+              "no table with the same answers has fewer tests: the bake's word, no more than the tests"),
         figure("uniform double[] tss:coverage", &FitRecord::coverage,
-               "of either body, a proven bound: how far the surface (of the contact zone, where spheres "
-               "stand there alone) is outside of the spheres; -1: not known"),
+               "of either body, a bound that the bake proved of all its spheres: how far the surface (of the "
+               "contact zone, where spheres stand there alone) is outside of them; both together are no less "
+               "than tss:boundMiss; -1: not known"),
         figure("uniform double[] tss:protrusion", &FitRecord::protrusion,
-               "the same: how far the spheres stick out of the body"),
+               "the same: how far the spheres stick out of the body; proven again of those that are stored"),
         figure("uniform double[] tss:coverageMean", &FitRecord::coverageMean, "its mean, sampled"),
         figure("uniform double[] tss:coverageP95", &FitRecord::coverageP95, "its 95th percentile"),
         figure("uniform double[] tss:protrusionMean", &FitRecord::protrusionMean, "its mean, sampled"),

@@ -211,18 +211,23 @@ void addVerify(CLI::App& app, Console& console) {
             "--budget", *budget,
             "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes")
         ->check(CLI::NonNegativeNumber);
-    command->footer("Proven from the file and the meshes alone, at every pose of the limits: that some test "
-                    "reports where the\n"
-                    "meshes meet (miss); that where a test reports they are as near as stated (early); that "
-                    "meshes said to\n"
-                    "never collide stay as far apart as stated; that each kind of run-time kernel that this "
-                    "machine has rounds\n"
-                    "within its band. A gap that a table states down to a depth is proven against spheres "
-                    "made again from the\n"
-                    "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
-                    "of each muscle by\n"
-                    "itself is checked, and one that says it is certified is refused.\n" +
-                    app.get_footer());
+    command->footer(
+        "Proven from the file and the meshes alone, at every pose of the limits: that some test "
+        "reports where the\n"
+        "meshes meet (miss); that where a test reports they are as near as stated (early); that "
+        "meshes said to\n"
+        "never collide stay as far apart as stated; that each kind of run-time kernel that this "
+        "machine has rounds\n"
+        "within its band; that no stored sphere sticks out farther than is said of its body. Counts, "
+        "the least number\n"
+        "of tests and what is said of spheres that the file does not hold are not proven, and "
+        "refused where the table\n"
+        "contradicts them. A gap that a table states down to a depth is proven against spheres "
+        "made again from the\n"
+        "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
+        "of each muscle by\n"
+        "itself is checked, and one that says it is certified is refused.\n" +
+        app.get_footer());
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
 

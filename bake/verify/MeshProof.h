@@ -18,7 +18,7 @@ namespace tss::verify {
 struct MeshTest {
     Vec3 centreA = Vec3::Zero(), centreB = Vec3::Zero();
     double contactDistance = 0;
-    double threshold = 0; ///< what that is more than the sum of radii
+    double threshold = 0;                   ///< what that is more than the sum of radii
     std::uint32_t sphereA = 0, sphereB = 0; ///< in the table: the same number is the same sphere
     double radiusA = 0, radiusB = 0;
 };
@@ -53,22 +53,5 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
 /// units) apart at every pose of the limits: what moves B along that normal is bounded DOF by DOF, in
 /// extended precision. false: not shown.
 bool apartAcrossAxis(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double clearance);
-
-/// What is shown of a table's early reports.
-struct EarlyResult {
-    double bound = 0;      ///< where a test fires, points of the two bodies are no farther apart than this
-    bool surfaces = false; ///< shown for the surfaces alone: nothing is taken to be behind openings
-    bool proven = false;
-    std::string reason;       ///< why not; empty when proven
-    std::vector<double> pose; ///< that breaks it, or where it could not be told; may be empty
-    std::uint64_t cells = 0;  ///< boxes of Q looked at
-};
-
-/// Shows from the meshes that wherever a test fires the two surfaces are at most `claimed` apart: how far the
-/// spheres of each test stick out of their bodies bounds how far apart the bodies are, and Nesting.h shows
-/// that then neither is inside the other with the surfaces apart.
-EarlyResult proveEarly(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion, double size,
-                       const std::vector<Sphere>& spheresA, const std::vector<Sphere>& spheresB,
-                       const std::vector<MeshTest>& tests, double claimed, const Progress& progress);
 
 } // namespace tss::verify

@@ -1,7 +1,7 @@
 #include "bake/verify/MeshVerify.h"
 
 #include "bake/base/Error.h"
-#include "bake/verify/MeshProof.h"
+#include "bake/verify/EarlyProof.h"
 #include "bake/verify/Models.h"
 
 #include <algorithm>
@@ -124,8 +124,11 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     claim.work = work;
     // First what is soon said.
     if (!takeRegion(verdict, frame, table.restRegion)) return verdict;
+    const StickingOut outA = stickingOut(frame.a, table.a), outB = stickingOut(frame.b, table.b);
+    verdict.reason = contradiction(table, outA, outB, frame.band);
+    if (!verdict.holds()) return verdict;
     if (table.boundEarly) {
-        EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, table.a, table.b, claim.tests,
+        EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, outA, outB, claim.tests,
                                        *table.boundEarly + frame.band, progress);
         verdict.cells += early.cells;
         verdict.early = early.proven;

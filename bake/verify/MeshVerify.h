@@ -33,9 +33,10 @@ struct MeshVerdict {
 /// - wherever the surfaces have a common point, the exempt parts between each other excepted, the gap of some
 ///   test, counted from its threshold, is at most boundMiss (not asked where that is not known);
 /// - wherever a test fires the surfaces are at most boundEarly apart (not asked where that is not known);
-/// and that what is exempt is where the meshes meet at rest. The record, the method and epsilon are not read.
-/// All triangles of the meshes count, those without area as segments and points. Deterministic.
-/// work: give up after about so many comparisons of patches; 0: never.
+/// and that what is exempt is where the meshes meet at rest; and that nothing stored contradicts its record
+/// (StickingOut.h): protrusions are shown for the stored spheres. What the record says of spheres that are
+/// not stored, and the method, are not read. All triangles of the meshes count, those without area as
+/// segments and points. Deterministic. work: give up after about so many comparisons of patches; 0: never.
 MeshVerdict verifyOnMeshes(const TriangleMesh& a, const TriangleMesh& b, const Table& table,
                            const Motion& motion, std::uint64_t work = 0, const Progress& progress = {});
 
