@@ -1,5 +1,6 @@
 #include "PairBodies.h"
 
+#include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/extract/FindQuietly.h"
@@ -68,6 +69,15 @@ bool PairBodies::isBelow(int body, osg::Node& node) const {
     return of && !pathsFrom(node, *of).empty();
 }
 
+/// Whether a joint with tables at or below a node is none as it stands now, as where it is sheared.
+bool PairBodies::loses(osg::Node& node) const {
+    bool lost = false;
+    eachNode(node, [&](osg::Node& below) {
+        lost = lost || (below.asTransform() && carriesJoint(below) && !_bodyOf.contains(&below));
+    });
+    return lost;
+}
+
 /// part: of `body`, in its frame.
 bool PairBodies::meets(int body, const tss::TriangleMesh& part, const std::set<int>& others) {
     if (part.empty()) return false;
@@ -89,6 +99,7 @@ bool PairBodies::meets(int body, const tss::TriangleMesh& part, const std::set<i
 }
 
 bool PairBodies::mayBeMetBy(osg::Node& node, const osg::NodePath& above) {
+    if (loses(node)) return true;
     std::set<int> others;
     for (const auto& [a, b] : _pairs) {
         if (isBelow(a, node) != isBelow(b, node)) return true;

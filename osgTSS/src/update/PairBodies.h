@@ -24,7 +24,8 @@ public:
 
     /// Whether a node, which hangs at the end of the path, carries one body of a pair and not the other, or
     /// draws, itself and below, what may touch at some pose a body of a pair that it is no part of and does
-    /// not carry. What moves by itself, without being a joint, no pair reaches, and is not looked at.
+    /// not carry, or carries a joint that makes no body as it stands now. What moves by itself, without being
+    /// a joint, no pair reaches, and is not looked at.
     bool mayBeMetBy(osg::Node& node, const osg::NodePath& above);
 
 private:
@@ -38,6 +39,7 @@ private:
     int bodyAt(const osg::NodePath& path, osg::Matrixd& toBody) const;
     bool isNamed(int body, const std::string& path, const tss::Joint* movedBy) const;
     bool isBelow(int body, osg::Node& node) const;
+    bool loses(osg::Node& node) const;
     bool meets(int body, const tss::TriangleMesh& part, const std::set<int>& others);
 
     ConstraintVisitor _visitor;

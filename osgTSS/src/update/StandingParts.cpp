@@ -11,6 +11,8 @@
 #include <osg/Geometry>
 #include <osg/PagedLOD>
 #include <osgAnimation/Bone>
+#include <osgAnimation/MorphGeometry>
+#include <osgAnimation/RigGeometry>
 #include <osgAnimation/Skeleton>
 #include <osgTSS/Overlay>
 
@@ -35,11 +37,6 @@ bool movesOtherwise(osg::Node& node) {
            dynamic_cast<osgAnimation::Skeleton*>(&node) || movesItself(node) || hasFlag(node, "osgTSS:moved");
 }
 
-unsigned int verticesOf(const osg::Node& node) {
-    const osg::Geometry* geometry = node.asGeometry();
-    return geometry && geometry->getVertexArray() ? geometry->getVertexArray()->getNumElements() : 0;
-}
-
 osg::Matrix placeOf(const osg::Node& transform) {
     osg::Matrix matrix;
     transform.asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
@@ -56,6 +53,17 @@ std::vector<osg::Node*> childrenOf(osg::Node& node) {
 }
 
 } // namespace
+
+/// Of what osgAnimation deforms every update, the number alone.
+StandingParts::Vertices StandingParts::verticesOf(const osg::Node& node) {
+    const osg::Geometry* geometry = node.asGeometry();
+    const osg::Array* array = geometry ? geometry->getVertexArray() : nullptr;
+    if (!array) return {};
+    const bool deformed = dynamic_cast<const osgAnimation::RigGeometry*>(geometry) ||
+                          dynamic_cast<const osgAnimation::MorphGeometry*>(geometry);
+    return deformed ? Vertices{nullptr, array->getNumElements(), 0}
+                    : Vertices{array, array->getNumElements(), array->getModifiedCount()};
+}
 
 /// Machine by machine, which is all that joints hold together, and body by body of each.
 class StandingParts::Collect {
@@ -149,8 +157,10 @@ std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
     for (const osg::NodePath& path : pathsFrom(_root, node)) {
         const bool moved = part.place && placeOf(node) != *part.place;
         if (moved || verticesOf(node) != part.vertices) {
+            // What a callback moves since then is a body of its own now.
             const osg::NodePath above(path.begin(), path.end() - 1);
-            if ((part.known && bodies.hold(path)) || bodies.mayBeMetBy(node, above))
+            const bool own = moved && movesOtherwise(node);
+            if ((part.known && bodies.hold(own ? above : path)) || bodies.mayBeMetBy(node, above))
                 return moved ? "transform \"" + node.getName() + "\" stands elsewhere than" : geometry;
         }
         for (const Child& was : part.children)

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <osg/Array>
 #include <osg/Group>
 #include <osg/Matrix>
 #include <osg/observer_ptr>
@@ -15,12 +16,12 @@ namespace osgTSS {
 
 class PairBodies;
 
-/// A graph as it was when its tables were installed: of each group its children, of each geometry how many
-/// vertices it has, of each transform that nothing is known to move its matrix, unless it carries all that
-/// joints hold together. What has become other concerns the tables if it was part of a body of a pair, parts
-/// the two bodies of one, or may touch one at some pose of the joints. If not, the graph is remembered as it
-/// is then, and what has come may change and go again as long as it meets nothing. What moves by itself, what
-/// osgTSS shows and what is paged does not count.
+/// A graph as it was when its tables were installed: of each group its children, of each geometry its
+/// vertices (the array, and how often it was said to be dirty), of each transform that nothing is known to
+/// move its matrix, unless it carries all that joints hold together. What has become other concerns the
+/// tables if it was part of a body of a pair, parts the two bodies of one, or may touch one at some pose of
+/// the joints. If not, the graph is remembered as it is then, and what has come may change and go again as
+/// long as it meets nothing. What moves by itself, what osgTSS shows and what is paged does not count.
 class StandingParts {
 public:
     /// model: whose pairs have been installed in the graph.
@@ -34,6 +35,12 @@ public:
     bool anyOther() const { return std::ranges::any_of(_parts, isOther); }
 
 private:
+    /// Whether they are the same is told without looking at each.
+    struct Vertices {
+        const osg::Array* array = nullptr;
+        unsigned int count = 0, modified = 0;
+        friend bool operator==(const Vertices&, const Vertices&) = default;
+    };
     struct Child {
         osg::observer_ptr<osg::Node> node;
         bool known; ///< tables know something that is drawn there, in the body that the group is part of
@@ -41,12 +48,13 @@ private:
     struct Part {
         osg::observer_ptr<osg::Node> node;
         bool known; ///< as of a child
-        unsigned int vertices;
+        Vertices vertices;
         std::vector<Child> children{};
         std::optional<osg::Matrix> place{};
     };
     class Collect;
 
+    static Vertices verticesOf(const osg::Node& node);
     bool cameSince(osg::Node& node) const;
     static bool isOther(const Part& part);
     std::string whatConcerns(const Part& part, PairBodies& bodies);
