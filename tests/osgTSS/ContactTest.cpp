@@ -57,6 +57,32 @@ TEST_CASE("a contact is told as it begins, stays and ends, with its place in the
     CHECK((contact.normal - normal).length() < 2e-3);
 }
 
+TEST_CASE("the normal of a contact is one of the surface where scales above differ between axes") {
+    osg::Vec3d normals[2];
+    const osg::Matrixd places[] = {osg::Matrixd(),
+                                   osg::Matrixd::rotate(0.7, 0, 1, 0) * osg::Matrixd::scale(1, 1, 4)};
+    for (int k = 0; k < 2; ++k) {
+        osg::ref_ptr<Scene> scene =
+            new Scene(std::make_shared<tss::SceneModel>(scenes::hinge()), Clock::FRAME_NUMBER);
+        osg::ref_ptr<osg::Group> graph = createGraph(*scene);
+        install(*graph, *scene);
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(places[k]);
+        place->addChild(graph);
+        osg::ref_ptr<Listen> listen = new Listen;
+        scene->setContactCallback(listen);
+        Playback().frames(*place, 0, 12);
+        REQUIRE(!listen->heard.empty());
+        normals[k] = listen->heard.front().normal;
+    }
+    // What lies in the surface, as the place carries it, is at right angles to the normal there.
+    for (const osg::Vec3d& along : {osg::Vec3d(0, 1, 0) ^ normals[0], osg::Vec3d(0, 1, 0)}) {
+        const osg::Vec3d carried = osg::Matrixd::transform3x3(along, places[1]);
+        CHECK(normals[1] * carried == Approx(0).margin(1e-6));
+    }
+    CHECK(normals[1].length() == Approx(1));
+    CHECK(normals[1] * osg::Matrixd::transform3x3(normals[0], places[1]) > 0);
+}
+
 TEST_CASE("contacts of an extracted graph name its nodes") {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->setName("Rig");

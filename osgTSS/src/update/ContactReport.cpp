@@ -73,7 +73,8 @@ void ContactReport::locate(const tss::SceneModel& model, const tss::QueryResult&
         scale = watched.a.scale;
     }
     contact.point = toOsg(found.point) / scale * toWorld;
-    contact.normal = osg::Matrixd::transform3x3(toOsg(found.normal) / scale, toWorld);
+    // Of the surface still where scales differ between axes: by the inverse, transposed.
+    contact.normal = osg::Matrixd::transform3x3(osg::Matrixd::inverse(toWorld), toOsg(found.normal));
     contact.normal.normalize();
 }
 
