@@ -209,6 +209,7 @@ TEST_CASE("spheres that stick out further than stated are refused") {
     CHECK_FALSE(c.verdict().holds());
     c = boxes(0.5, 0.3);
     c.table.restGaps = {0.2};
+    c.table.epsilon = 0.31;
     CHECK(c.verdict().holds());
     c.table.restGaps = {0.31};
     CHECK_FALSE(c.verdict().holds());
