@@ -51,32 +51,43 @@ TriangleMesh irisesMesh() {
 
 namespace {
 
-TriangleMesh untrimmedSkin(const Field& head, const Detail& detail, double finest, double longest) {
+/// Open at the neck.
+TriangleMesh headMesh(const Field& head, const Detail& detail, double finest, double longest) {
     RemeshOptions options{.shortest = finest / 2, .longest = longest};
     options.limit = [finest, muscle = frontalis()](const Vec3& p) {
         return std::max(finest, finest - 1.2 + 0.25 * muscle(p));
     };
     options.deviation = detail.deviation;
     const TriangleMesh whole = remesh(polygonize(head, detail.cell), head, options);
-    return trim(whole, Vec3(-52, 0, -36), Vec3(-0.8, 0, -0.55));
+    return trim(whole, halfSpace({-52, 0, -36}, {-0.8, 0, -0.55}, head.box));
+}
+
+/// Of a head with its mouth cut: without the lining.
+TriangleMesh withoutLining(const TriangleMesh& skin) {
+    const Field lining = behindLips();
+    return trim(skin, {[&](const Vec3& p) { return -lining(p); }, bounds(skin)});
+}
+
+TriangleMesh leftHalf(const TriangleMesh& skin) {
+    return trim(skin, halfSpace({0, -3, 0}, -Vec3::UnitY(), bounds(skin)));
 }
 
 } // namespace
 
 TriangleMesh leftSkinMesh(const Detail& detail) {
-    return rounded(trim(untrimmedSkin(headSkin(), detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
+    return rounded(leftHalf(headMesh(headSkin(), detail, 2.2, 4.5)));
 }
 
 TriangleMesh leftSkinMouthCutMesh(const Detail& detail) {
-    return rounded(trim(untrimmedSkin(headSkinMouthCut(), detail, 2.2, 4.5), Vec3(0, -3, 0), -Vec3::UnitY()));
+    return rounded(leftHalf(withoutLining(headMesh(headSkinMouthCut(), detail, 2.2, 4.5))));
 }
 
 TriangleMesh skinMesh(const Detail& detail) {
-    return rounded(untrimmedSkin(headSkin(), detail, 2.6, 5.5));
+    return rounded(headMesh(headSkin(), detail, 2.6, 5.5));
 }
 
 TriangleMesh skinMouthCutMesh(const Detail& detail) {
-    return rounded(untrimmedSkin(headSkinMouthCut(), detail, 2.6, 5.5));
+    return rounded(withoutLining(headMesh(headSkinMouthCut(), detail, 2.6, 5.5)));
 }
 
 TriangleMesh earCartilageMesh(const Detail& detail) {

@@ -151,11 +151,6 @@ void tetherBeyond(tss::SceneModel& scene, const Field& body, double from, double
         scene.skins[0].tether.push_back(std::round(1000 * smoothStep(from, to, body(v))) / 1000);
 }
 
-/// 1 on the upper lip and above it, 0 below the mouth and behind its corner.
-double upperLip(const Vec3& v) {
-    return smoothStep(78, 100, v.x()) * smoothStep(-0.4, 0.8, v.z() - mouthHeight(v.x()));
-}
-
 /// Tightens from `from` to a full activation in the middle, and lets go until `to`.
 tss::TimeSamples twitch(double from, double to, double last, double most = 1) {
     const double part = (to - from) / 3;
@@ -232,15 +227,9 @@ tss::SceneModel lipsScene() {
     const SkullAndJaw bones = addSkullAndJaw(scene);
     scene.joints.front().drives = {
         sampled({{0, 0}, {6, 0}, {22, 16}, {32, 16}, {44, -3}, {52, -3}, {58, 0}, {64, 0}}, 2, degree)};
-    addUnder(scene, "SkullUnder", bones.skull, -1);
-    addUnder(scene, "MandibleUnder", bones.mandible, bones.mandible);
     addSkin(scene, leftSkinMouthCutMesh());
+    scene.skins[0].bones = {bones.skull, bones.mandible};
     scene.skins[0].selfContact = true; // lip against lip
-    // What lies above the mouth is held to the skull; cheeks and throat give way.
-    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices) {
-        const double held = std::max(upperLip(v), smoothStep(-30, 0, v.z()));
-        scene.skins[0].tether.push_back(std::round(970 * held) / 1000);
-    }
     addNoseAndEyes(scene);
     return scene;
 }
@@ -280,9 +269,6 @@ tss::SceneModel headScene() {
     addSkin(scene, skinMouthCutMesh({1, 0.4}));
     scene.skins[0].bones = {bones.skull, bones.mandible, left, right};
     scene.skins[0].selfContact = true; // lip against lip
-    // The cut of the mouth ends in a wall that joins the lips: the upper one is held to the skull.
-    for (const Vec3& v : scene.bodies[scene.skins[0].body].mesh.vertices)
-        scene.skins[0].tether.push_back(std::round(970 * upperLip(v)) / 1000);
     addNoseAndEyes(scene);
     return scene;
 }

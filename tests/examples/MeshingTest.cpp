@@ -85,7 +85,7 @@ TEST_CASE("trimming leaves what is behind the plane, open along the cut and nowh
     const Field field = ellipsoid({0, 0, 0}, {10, 8, 6});
     const tss::TriangleMesh whole = remesh(polygonize(field, 1), field, {});
     const Vec3 point(2, 0, 0), outward = Vec3(1, 0.3, 0.2).normalized();
-    const tss::TriangleMesh part = trim(whole, point, outward);
+    const tss::TriangleMesh part = trim(whole, halfSpace(point, outward, {}));
     const tss::MeshAudit audit = tss::auditMesh(part);
     CHECK(audit.openEdges > 10);
     CHECK(audit.nonManifoldEdges == 0);

@@ -49,6 +49,9 @@ double mouthHeight(double x);
 /// The same with the mouth cut through from lip to lip, so that it can open.
 Field headSkinMouthCut();
 
+/// The room of that mouth behind its lips, whose lining is no skin.
+Field behindLips();
+
 /// The stiff shell in the left ear above its root, wholly inside the skin.
 Field earCartilage();
 

@@ -8,28 +8,45 @@ namespace doghead {
 namespace {
 
 constexpr double lipThickness = 4.5;   ///< and depth of the mouth line, mm
+constexpr double lipRim = 1;           ///< how far the lining goes on behind the lips, mm
+constexpr double cornerPocket = 4;     ///< and behind the corner of the mouth, mm more
 constexpr double frontalisCover = 0.5; ///< least thickness of the skin over the frontalis: they touch
 
+Field upperMuzzle() {
+    return loft({{30, -52, 44, 40, 0.10, 2.3},
+                 {46, -52, 44, 40, 0.15, 2.3},
+                 {60, -51, 40, 37.5, 0.20, 2.3},
+                 {72, -50, 32, 34, 0.24, 2.3},
+                 {84, -49.5, 22.5, 30, 0.24, 2.4},
+                 {96, -49, 15.5, 26.5, 0.22, 2.5},
+                 {110, -49, 10.5, 24, 0.20, 2.5},
+                 {124, -48.5, 7, 22.5, 0.18, 2.5},
+                 {136, -47, 4, 20, 0.15, 2.4},
+                 {146, -43, 0.5, 16, 0.1, 2.3},
+                 {153, -36, -5, 11, 0, 2.2}});
+}
+
+Field lowerMuzzle() {
+    return loft({{20, -70, -22, 40, 0, 2.3},
+                 {44, -69, -22, 37, 0, 2.3},
+                 {70, -68, -26, 31.5, 0, 2.5},
+                 {96, -66.5, -30, 26, 0, 2.5},
+                 {118, -63, -34, 21.5, 0, 2.4},
+                 {132, -57.5, -36, 16.5, 0, 2.3},
+                 {142, -51, -38, 10, 0, 2.2}});
+}
+
 Field muzzle() {
-    const Field upper = loft({{30, -52, 44, 40, 0.10, 2.3},
-                              {46, -52, 44, 40, 0.15, 2.3},
-                              {60, -51, 40, 37.5, 0.20, 2.3},
-                              {72, -50, 32, 34, 0.24, 2.3},
-                              {84, -49.5, 22.5, 30, 0.24, 2.4},
-                              {96, -49, 15.5, 26.5, 0.22, 2.5},
-                              {110, -49, 10.5, 24, 0.20, 2.5},
-                              {124, -48.5, 7, 22.5, 0.18, 2.5},
-                              {136, -47, 4, 20, 0.15, 2.4},
-                              {146, -43, 0.5, 16, 0.1, 2.3},
-                              {153, -36, -5, 11, 0, 2.2}});
-    const Field lower = loft({{20, -70, -22, 40, 0, 2.3},
-                              {44, -69, -22, 37, 0, 2.3},
-                              {70, -68, -26, 31.5, 0, 2.5},
-                              {96, -66.5, -30, 26, 0, 2.5},
-                              {118, -63, -34, 21.5, 0, 2.4},
-                              {132, -57.5, -36, 16.5, 0, 2.3},
-                              {142, -51, -38, 10, 0, 2.2}});
-    return Sculpture().add(upper).add(lower, 2).field();
+    return Sculpture().add(upperMuzzle()).add(lowerMuzzle(), 2).field();
+}
+
+/// What of the muzzle lies behind the lips, deeper than they are thick. (The muzzle as one
+/// sculpture has no such depth: a part is skipped where it cannot move the surface.)
+Field deepMuzzle() {
+    const auto distance = [upper = upperMuzzle(), lower = lowerMuzzle()](const Vec3& p) {
+        return smoothMin(upper(p), lower(p), 2) + lipThickness;
+    };
+    return {distance, muzzle().box};
 }
 
 /// A thin sheet where the lips meet, from the nose's foot, or through under it, to the corner of the mouth.
@@ -45,7 +62,7 @@ Field mouthLine(bool through) {
 /// The room for teeth behind lips of some millimetres.
 Field mouthRoom() {
     const Box box(Vec3(76, -60, -62), Vec3(160, 60, -28));
-    const auto distance = [flesh = grown(muzzle(), -lipThickness)](const Vec3& p) {
+    const auto distance = [flesh = deepMuzzle()](const Vec3& p) {
         const double slab = std::abs(p.z() - mouthHeight(p.x())) - 9;
         return -smoothMin(-slab, std::min(p.x() - 80, -flesh(p)), 3);
     };
@@ -158,6 +175,16 @@ Field headSkin() {
 
 Field headSkinMouthCut() {
     return head(true);
+}
+
+Field behindLips() {
+    const Box box(Vec3(70, -60, -70), Vec3(160, 60, -20));
+    const auto distance = [deep = deepMuzzle()](const Vec3& p) {
+        const double slab = std::abs(p.z() - mouthHeight(p.x())) - 15;
+        const double rim = lipRim + cornerPocket * std::clamp((94 - p.x()) / 16, 0., 1.);
+        return std::max({slab, 70 - p.x(), deep(p) + rim});
+    };
+    return {distance, box};
 }
 
 } // namespace doghead

@@ -123,7 +123,7 @@ Field Sculpture::field() const {
     const auto distance = [steps = std::make_shared<const std::vector<Step>>(steps_)](const Vec3& p) {
         double d = 1e9;
         for (const Step& step : *steps) {
-            // A part whose box is farther than the blend reaches cannot change the value.
+            // A part whose box is farther than the blend reaches cannot move the surface.
             if (step.kind == Kind::Keep) {
                 d = -smoothMin(-d, -step.part(p), step.k);
             } else {

@@ -28,8 +28,8 @@ struct RemeshOptions {
 /// multiresolution modeling", 2004.)
 tss::TriangleMesh remesh(const tss::TriangleMesh& raw, const Field& field, const RemeshOptions& options);
 
-/// The part of a mesh behind a plane (where outward . (x - point) <= 0), open along the cut. Vertices near
-/// the plane are drawn onto it first, so that the cut leaves no slivers.
-tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const tss::Vec3& point, const tss::Vec3& outward);
+/// The part of a mesh inside of a solid, open along the cut. Vertices near the solid's surface are drawn onto
+/// it first, so that the cut leaves no slivers.
+tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Field& kept);
 
 } // namespace doghead

@@ -8,8 +8,7 @@ namespace doghead {
 using tss::Tri;
 using tss::Vec3;
 
-tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Vec3& point, const Vec3& outward) {
-    const Vec3 n = outward.normalized();
+tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Field& kept) {
     tss::TriangleMesh cut = mesh;
     std::vector<double> reach(mesh.vertices.size(), 1e300); ///< a third of the shortest edge at a vertex
     for (const Tri& t : mesh.triangles)
@@ -20,9 +19,9 @@ tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Vec3& point, const V
         }
     std::vector<double> side(cut.vertices.size());
     for (std::size_t i = 0; i < side.size(); ++i) {
-        side[i] = n.dot(cut.vertices[i] - point);
+        side[i] = kept(cut.vertices[i]);
         if (std::abs(side[i]) >= reach[i]) continue;
-        cut.vertices[i] -= side[i] * n;
+        cut.vertices[i] -= side[i] * normal(kept, cut.vertices[i]);
         side[i] = 0;
     }
 
@@ -36,23 +35,23 @@ tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Vec3& point, const V
         }
         return place->second;
     };
-    std::vector<Tri> kept;
+    std::vector<Tri> triangles;
     for (const Tri& t : mesh.triangles) {
-        std::vector<int> polygon; // the triangle's part behind the plane, Sutherland and Hodgman
-        bool behind = false;
+        std::vector<int> polygon; // the triangle's part inside, Sutherland and Hodgman
+        bool inside = false;
         for (int k = 0; k < 3; ++k) {
             const int a = t[k], b = t[(k + 1) % 3];
-            behind |= side[a] < 0;
+            inside |= side[a] < 0;
             if (side[a] <= 0) polygon.push_back(a);
             if (side[a] * side[b] < 0) polygon.push_back(crossing(a, b));
         }
-        for (std::size_t k = 2; behind && k < polygon.size(); ++k)
-            kept.push_back({polygon[0], polygon[k - 1], polygon[k]});
+        for (std::size_t k = 2; inside && k < polygon.size(); ++k)
+            triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
     }
 
     tss::TriangleMesh result;
     std::vector<int> index(cut.vertices.size(), -1);
-    for (Tri& t : kept)
+    for (Tri& t : triangles)
         for (int k = 0; k < 3; ++k) {
             if (index[t[k]] < 0) {
                 index[t[k]] = int(result.vertices.size());
@@ -60,7 +59,7 @@ tss::TriangleMesh trim(const tss::TriangleMesh& mesh, const Vec3& point, const V
             }
             t[k] = index[t[k]];
         }
-    result.triangles = std::move(kept);
+    result.triangles = std::move(triangles);
     return result;
 }
 
