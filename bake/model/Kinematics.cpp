@@ -300,6 +300,19 @@ std::vector<int> rigidRoots(const SceneModel& scene) {
     return roots;
 }
 
+std::vector<int> movingAsOne(const SceneModel& scene, int bone) {
+    std::vector<char> soft(scene.bodies.size(), 0);
+    for (const MuscleModel& muscle : scene.muscles)
+        if (muscle.body >= 0) soft[muscle.body] = 1;
+    for (const SkinModel& skin : scene.skins)
+        if (skin.body >= 0) soft[skin.body] = 1;
+    const std::vector<int> roots = rigidRoots(scene);
+    std::vector<int> bodies;
+    for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k)
+        if (k == bone || (!soft[k] && roots[k] == roots[bone])) bodies.push_back(k);
+    return bodies;
+}
+
 void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers) {
     for (const int index : pair.joints) {
         const Joint& joint = scene.joints[index];

@@ -61,6 +61,9 @@ std::vector<int> movers(const SceneModel& scene);
 /// bodies of which that is the same move as one. -1: those that stand in the world.
 std::vector<int> rigidRoots(const SceneModel& scene);
 
+/// A bone and the other bodies that never move against it and are no muscle's surface and no skin.
+std::vector<int> movingAsOne(const SceneModel& scene, int bone);
+
 /// Throws InputError where a pair's bodies do not stand as its chain of joints says when these have their
 /// values: a joint of it is not the one that moves its body1. movers: those of the scene.
 void requireMoved(const SceneModel& scene, const Pair& pair, const std::vector<int>& movers);

@@ -2,6 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/Sha256.h"
+#include "bake/model/Kinematics.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,6 +75,14 @@ std::string limitsHash(const Motion& motion) {
         hash.add(plane.bound);
     }
     return hash.text();
+}
+
+/// What carries one end of a muscle, but for bones that the skin names itself.
+void addCarrying(const SceneModel& scene, const SkinModel& skin, int bone, PartHash& meshes) {
+    const Pose toSkin = scene.bodies[skin.body].placement.inverse();
+    for (const int k : movingAsOne(scene, bone))
+        if (std::ranges::find(skin.bones, k) == skin.bones.end())
+            meshes.add(Pose(toSkin * scene.bodies[k].placement)).add(scene.bodies[k].mesh);
 }
 
 /// The joints above the bones of a skin: where these can be. Of a skin without bones of its own nothing is
@@ -158,10 +167,12 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
         for (const Vec3& point : muscle.fibre) forms.add(point);
         forms.add(std::uint64_t(muscle.form)).add(muscle.anchor).add(muscle.maxContraction);
         travel.add(muscle.activationLower).add(muscle.activationUpper);
-        if (model.insertionBone >= 0)
-            for (const int bone : {model.bone, model.insertionBone})
-                travel.add(bone < 0 ? Pose::Identity()
-                                    : Pose(body.placement.inverse() * scene.bodies[bone].placement));
+        if (model.insertionBone < 0) continue;
+        for (const int bone : {model.bone, model.insertionBone}) {
+            travel.add(bone < 0 ? Pose::Identity()
+                                : Pose(body.placement.inverse() * scene.bodies[bone].placement));
+            if (bone >= 0) addCarrying(scene, skin, bone, meshes);
+        }
     }
     travel.add(skin.thickness).add(skin.travel);
     addBones(scene, skin, meshes, travel);

@@ -89,19 +89,12 @@ std::vector<std::vector<double>> sharesOf(const SceneModel& scene, const SkinMod
     return shares;
 }
 
-/// A bone and all others that never move against it, which carry a muscle as it does, in the frame of the
-/// muscle's surface. What is muscle or skin carries none.
-TriangleMesh movingAsOne(const SceneModel& scene, int bone, int surface) {
-    std::vector<char> soft(scene.bodies.size(), 0);
-    for (const MuscleModel& muscle : scene.muscles)
-        if (muscle.body >= 0) soft[muscle.body] = 1;
-    for (const SkinModel& skin : scene.skins)
-        if (skin.body >= 0) soft[skin.body] = 1;
-    const std::vector<int> roots = rigidRoots(scene);
+/// A bone and all that moves as one with it, which carries a muscle as it does, in the frame of the muscle's
+/// surface.
+TriangleMesh carrying(const SceneModel& scene, int bone, int surface) {
     const Pose toSurface = scene.bodies[surface].placement.inverse(Eigen::Isometry);
     TriangleMesh all;
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-        if (static_cast<int>(k) != bone && (soft[k] || roots[k] != roots[bone])) continue;
+    for (const int k : movingAsOne(scene, bone)) {
         const auto first = static_cast<int>(all.vertices.size());
         const Pose pose = toSurface * scene.bodies[k].placement;
         for (const Vec3& v : scene.bodies[k].mesh.vertices) all.vertices.push_back(pose * v);
@@ -133,8 +126,8 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
     if (!muscle.spans || model.bone < 0) return muscle;
     const MuscleWays ways = muscleWays(scene, model);
     muscle.side = ways.side;
-    muscle.insertionShares = insertionShares(muscle.surface, movingAsOne(scene, model.bone, model.body),
-                                             movingAsOne(scene, model.insertionBone, model.body), ways.far);
+    muscle.insertionShares = insertionShares(muscle.surface, carrying(scene, model.bone, model.body),
+                                             carrying(scene, model.insertionBone, model.body), ways.far);
     return muscle;
 }
 

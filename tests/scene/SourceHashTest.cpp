@@ -111,3 +111,37 @@ TEST_CASE("a skin's table is stale when a muscle changed, not when a compliance 
     scene.muscles[0].muscle.maxContraction = 0.31;
     CHECK_THAT(staleness(scene, skin), Catch::StartsWith("the muscles' fibres or forms changed"));
 }
+
+TEST_CASE("a skin's table is stale when what carries a muscle's end changed, named by the skin or not") {
+    SceneModel scene = samples::fromFile(samples::brow());
+    const auto add = [&](const char* path) {
+        Body body;
+        body.path = path;
+        body.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        body.mesh.triangles = {{0, 1, 2}};
+        scene.bodies.push_back(std::move(body));
+        return static_cast<int>(scene.bodies.size()) - 1;
+    };
+    const int origin = add("/Scene/Origin"), beside = add("/Scene/Beside"),
+              insertion = add("/Scene/Insertion"), apart = add("/Scene/Apart");
+    for (const auto& [moved, path] :
+         {std::pair(insertion, "/Scene/Hinge"), std::pair(apart, "/Scene/Other")}) {
+        Joint joint;
+        joint.path = path;
+        joint.body1 = moved;
+        joint.dofs.emplace_back();
+        scene.joints.push_back(std::move(joint));
+    }
+    scene.muscles[0].bone = origin;
+    scene.muscles[0].insertionBone = insertion;
+    SkinModel& skin = scene.skins[0];
+    skin.table = std::make_shared<SkinTable>();
+    skin.sourceHash = sourceHash(scene, skin);
+    scene.bodies[apart].mesh.vertices[0].x() = 0.1;
+    CHECK(staleness(scene, skin).empty());
+    for (const int carries : {origin, beside, insertion}) {
+        scene.bodies[carries].mesh.vertices[0].x() = 0.1;
+        CHECK_THAT(staleness(scene, skin), Catch::StartsWith("the meshes of the muscles or bones changed"));
+        scene.bodies[carries].mesh.vertices[0].x() = 0;
+    }
+}
