@@ -111,7 +111,7 @@ float entryTrust(float depth, float most) {
 
 /// How the offset between the two sides of a row has changed since rest.
 Vec3f motionSinceRest(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return anchorOffset(rig, scene, row) - rig.clearances[row.clearance].relative();
+    return anchorOffset(rig, scene, row) - row.atRest;
 }
 
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
@@ -126,10 +126,9 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (placed.moved) own = placed.turn.transpose() * own;
     if (row.fromOutside) own = -own;
     SurfacePoint hit;
-    Vec3f motion = Vec3f::Zero();
+    const Vec3f motion = motionSinceRest(rig, scene, row);
     const float reach = std::max(boneReach * rig.radius, boneReachOfSize);
     if (body.bone()) {
-        motion = motionSinceRest(rig, scene, row);
         int first = rig.starts[row.first];
         if (row.offset == 0) first = body.locator->entered((x - motion).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
@@ -149,9 +148,10 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to its far side: the side faced at rest counts too.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    if (body.bone() && smooth.dot(away) < 0)
-        trust *= entryTrust(away.norm(), motion.norm() - row.offset) *
-                 (1 - smoothStep(4 * away.norm() / reach - 3));
+    if (smooth.dot(away) < 0) {
+        trust *= entryTrust(away.norm(), motion.norm() - row.offset);
+        if (body.bone()) trust *= 1 - smoothStep(4 * away.norm() / reach - 3);
+    }
     if (!(trust > 0)) return plane;
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
@@ -229,12 +229,15 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     }
     float trust = trustOf(facing);
     const Vec3f away = hit.point - x, both = row.insideAtRest ? smooth : (smooth + own).normalized();
-    if (rig.bodies[row.body].bone() && both.dot(away) < 0) {
-        // Bones such as teeth may stick out of the skin at rest, and may again.
-        const SkinBody& body = rig.bodies[row.body];
-        const std::uint32_t v = row.vertex - body.first;
-        offset = std::min(heightAtRest(rig, body.rest[v].head<3>(), body.normals[v].head<3>(), hit), 0.0f);
-        trust *= entryTrust(away.norm(), motionSinceRest(rig, scene, row).norm() - offset);
+    if (both.dot(away) < 0) {
+        float overlap = row.offset;
+        if (const SkinBody& body = rig.bodies[row.body]; body.bone()) {
+            // Bones such as teeth may stick out of the skin at rest, and may again.
+            const std::uint32_t v = row.vertex - body.first;
+            overlap = offset =
+                std::min(heightAtRest(rig, body.rest[v].head<3>(), body.normals[v].head<3>(), hit), 0.0f);
+        }
+        trust *= entryTrust(away.norm(), motionSinceRest(rig, scene, row).norm() - overlap);
     }
     if (!(trust > 0)) return plane;
     fillPlane(rig, scene, both, away,

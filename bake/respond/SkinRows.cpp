@@ -187,7 +187,8 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         if (row.facing.squaredNorm() > 0) row.facing.normalize();
     }
     SkinClearance& clearance = rig.clearances[row.clearance];
-    clearance.offsetAndGap.head<3>() = anchorOffset(rig, scene, row);
+    row.atRest = anchorOffset(rig, scene, row);
+    clearance.offsetAndGap.head<3>() = row.atRest;
     row.offset = -1; // so that the query trusts an overlap of any depth
     SkinPlane plane = queryContact(rig, scene, row, 0);
     row.offset = 0;
