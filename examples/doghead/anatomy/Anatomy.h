@@ -43,9 +43,6 @@ constexpr double eyeRadius = 10.2;
 /// skull, mandible and frontalis().
 Field headSkin();
 
-/// z where the lips meet, for x from the corner of the mouth to the nose's foot.
-double mouthHeight(double x);
-
 /// The same with the mouth cut through from lip to lip, so that it can open.
 Field headSkinMouthCut();
 

@@ -12,6 +12,12 @@ constexpr double lipRim = 1;           ///< how far the lining goes on behind th
 constexpr double cornerPocket = 4;     ///< and behind the corner of the mouth, mm more
 constexpr double frontalisCover = 0.5; ///< least thickness of the skin over the frontalis: they touch
 
+/// z where the lips meet, for x from the corner of the mouth to the nose's foot.
+double mouthHeight(double x) {
+    static const Profile height({{76, -41}, {90, -45.5}, {112, -48}, {130, -46}, {142, -42.5}, {152, -38}});
+    return height(x);
+}
+
 Field upperMuzzle() {
     return loft({{30, -52, 44, 40, 0.10, 2.3},
                  {46, -52, 44, 40, 0.15, 2.3},
@@ -163,11 +169,6 @@ Field head(bool mouthCut) {
 }
 
 } // namespace
-
-double mouthHeight(double x) {
-    static const Profile height({{76, -41}, {90, -45.5}, {112, -48}, {130, -46}, {142, -42.5}, {152, -38}});
-    return height(x);
-}
 
 Field headSkin() {
     return head(false);
