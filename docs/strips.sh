@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Film strips of the repository's skin scenes into docs/pictures, in rows of four. Needs the build of tests/run.sh and
-# ImageMagick.
+# Film strips of the repository's scenes into docs/pictures. Needs the build of tests/run.sh and ImageMagick.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 export LD_LIBRARY_PATH=$root/build/lib OSG_LIBRARY_PATH=$root/build/lib:$root/build/lib/osgPlugins-3.6.5
@@ -12,9 +11,10 @@ strip() { # SCENE EVERY FRAME... : of the frames that are multiples of EVERY, th
     "$root/build/bin/tss-render" "$root/scenes/${scene}_baked.tss" -o "$work/${scene}_%04d.png" --every "$every" \
         --frames $((${*: -1} + 1)) --size 640x480 --quiet --view "$root/examples/views/$scene.path"
     for frame in "$@"; do pictures+=("$work/${scene}_$(printf %04d "$frame").png"); done
-    montage "${pictures[@]}" -tile 4x -geometry 320x240+1+1 -background '#808080' miff:- |
+    montage "${pictures[@]}" -tile "${columns:-4}x" -geometry "${picture:-320x240}+1+1" -background '#808080' miff:- |
         convert - +dither -colors 96 -define png:compression-level=9 -define png:exclude-chunks=date,tIME "PNG8:$root/docs/pictures/$scene.png"
 }
+columns=2 picture=640x480 strip dog_jaw 8 8 64 # open, and as far closed as its teeth and joint let it
 strip dog_face 10 0 10 30 50 70 90 110 130 # at rest, then where each muscle is at its most
 strip dog_ears 8 $(seq 0 8 56)
 strip dog_lips 8 $(seq 0 8 56)
