@@ -1,6 +1,7 @@
 #include "bake/pipeline/BakeSkin.h"
 
 #include "bake/base/Error.h"
+#include "bake/bind/SkinMoves.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
 #include "bake/motion/MuscleSpan.h"
@@ -8,7 +9,6 @@
 #include "bake/pipeline/FillPair.h"
 #include "bake/play/MuscleWays.h"
 #include "bake/play/SkinSetup.h"
-#include "bake/respond/SkinMoves.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/Patches.h"
 #include "bake/spheres/RoundToFloat.h"

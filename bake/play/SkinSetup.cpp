@@ -1,10 +1,10 @@
 #include "bake/play/SkinSetup.h"
 
 #include "bake/base/Error.h"
+#include "bake/bind/MuscleShares.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/play/MuscleWays.h"
-#include "bake/respond/MuscleShares.h"
 #include "bake/respond/SkinRig.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/base/Lists.h"
-#include "bake/respond/SkinGraph.h"
+#include "bake/bind/SkinGraph.h"
 
 namespace tss {
 

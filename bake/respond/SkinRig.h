@@ -1,40 +1,15 @@
 #pragma once
-#include "bake/motion/BoneSwing.h"
+#include "bake/bind/SkinNormals.h"
+#include "bake/bind/SkinParameters.h"
 #include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleTrack.h"
 #include "bake/motion/PoseBlend.h"
 #include "bake/respond/SkinFoundation.h"
-#include "bake/respond/SkinNormals.h"
 #include "bake/table/SkinTable.h"
 
 #include <memory>
 
 namespace tss {
-
-/// How a skin behaves (METHOD 6.5).
-struct SkinParameters {
-    double stretchCompliance = 0; ///< of the elastic sheet, >= 0; at 1 it is half as stiff in stretch
-    double bendCompliance = 0;    ///< of the elastic sheet, >= 0; at 1 it is half as stiff in bending
-    /// #bodies: the moving frame that each is rigid in, -1: the skin's own. Empty: each bone is a frame of
-    /// its own, muscles are in the skin's.
-    std::vector<int> frames;
-    /// #bodies: for a muscle between two bones a body that moves with the bone at its insertion; the muscle's
-    /// own frame is that of the bone at its origin. -1 for all others. Empty: -1 for all.
-    std::vector<int> insertions;
-    /// #frames of #V in [0,1]: skinning weights; empty: computed from where the bones are.
-    std::vector<std::vector<double>> shares;
-    std::vector<BoneSwing> swings; ///< sampled motions of the bodies, one per joint value and direction
-    std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest position; empty: 0
-    std::vector<double> attach;    ///< #V in [0,1], how firmly it follows the muscle below it; empty: 1
-    bool selfContact = false;      ///< the skin collides with itself too: lip against lip, lid against lid
-    int iterations = 60;           ///< most solver iterations for each time that contacts are queried, >= 1
-};
-
-inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
-    return parameters.insertions.empty() ? -1 : parameters.insertions[body];
-}
-
-constexpr int bodySteps = 16; ///< intervals of a muscle's activation range between tabulated surfaces
 
 /// x, y, z and mostly 0. "Run-time lengths" are floats relative to the skin's centre, in units of its size.
 using Move = Eigen::Vector4f;
@@ -155,9 +130,6 @@ struct SkinRig {
     std::size_t blocks() const { return (places.size() + block - 1) / block; }
     std::size_t bytes() const;
 };
-
-/// Throws InputError for parameters that makeSkinRig() would refuse over so many muscles and bones.
-void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameters& parameters);
 
 /// Makes a rig. skin: the mesh the table was made for. bodies: muscles and bones in the order the table knows
 /// them, in the skin's frame. Throws InputError when they do not fit each other.

@@ -1,5 +1,6 @@
 #pragma once
-#include "bake/respond/SkinAttachment.h"
+#include "bake/bind/SkinAttachment.h"
+#include "bake/respond/SkinRig.h"
 
 // The steps of makeSkinRig() that make its rows of contact.
 namespace tss {

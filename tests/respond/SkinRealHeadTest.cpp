@@ -2,9 +2,9 @@
 #include "SkinMeasure.h"
 #include "SkinShapes.h"
 
+#include "bake/bind/MuscleShares.h"
 #include "bake/geometry/FibreLine.h"
 #include "bake/motion/MuscleVolume.h"
-#include "bake/respond/MuscleShares.h"
 #include "bake/respond/SkinFollowMeasure.h"
 #include "bake/respond/SkinResponse.h"
 

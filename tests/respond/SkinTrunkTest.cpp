@@ -1,5 +1,5 @@
 // Skin over parts of the body whose bones are not named.
-#include "bake/respond/SkinAttachment.h"
+#include "bake/bind/SkinAttachment.h"
 #include "bake/respond/SkinResponse.h"
 #include "bake/respond/SkinRig.h"
 #include "tests/geometry/TestMeshes.h"

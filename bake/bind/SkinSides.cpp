@@ -1,4 +1,4 @@
-#include "bake/respond/SkinSides.h"
+#include "bake/bind/SkinSides.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

@@ -1,5 +1,6 @@
+#include "bake/bind/SkinParameters.h"
+
 #include "bake/base/Error.h"
-#include "bake/respond/SkinRig.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "bake/respond/SkinParts.h"
+#include "bake/bind/SkinParts.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

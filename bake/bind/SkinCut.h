@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/respond/SkinGraph.h"
+#include "bake/bind/SkinGraph.h"
 
 namespace tss {
 

@@ -1,6 +1,8 @@
-#include "bake/respond/SkinMoves.h"
+#include "bake/bind/SkinMoves.h"
 
-#include "bake/respond/SkinAttachment.h"
+#include "bake/bind/SkinAttachment.h"
+#include "bake/motion/MuscleSpan.h"
+#include "bake/motion/MuscleTrack.h"
 
 namespace tss {
 namespace {

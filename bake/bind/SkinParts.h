@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/respond/SkinInfluences.h"
-#include "bake/respond/SkinSides.h"
+#include "bake/bind/SkinInfluences.h"
+#include "bake/bind/SkinSides.h"
 
 namespace tss {
 

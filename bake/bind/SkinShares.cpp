@@ -1,4 +1,4 @@
-#include "bake/respond/SkinShares.h"
+#include "bake/bind/SkinShares.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

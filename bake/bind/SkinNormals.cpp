@@ -1,4 +1,4 @@
-#include "bake/respond/SkinNormals.h"
+#include "bake/bind/SkinNormals.h"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #pragma once
+#include "bake/bind/SkinGraph.h"
 #include "bake/motion/PoseBlend.h"
-#include "bake/respond/SkinGraph.h"
 
 namespace tss {
 

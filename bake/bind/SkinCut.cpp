@@ -1,4 +1,4 @@
-#include "bake/respond/SkinCut.h"
+#include "bake/bind/SkinCut.h"
 
 #include "bake/base/Infinity.h"
 

@@ -1,5 +1,5 @@
 // Where a skin is parted between bones.
-#include "bake/respond/SkinSides.h"
+#include "bake/bind/SkinSides.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <algorithm>

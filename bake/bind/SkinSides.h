@@ -1,6 +1,6 @@
 #pragma once
-#include "bake/respond/SkinAttachment.h"
-#include "bake/respond/SkinCut.h"
+#include "bake/bind/SkinAttachment.h"
+#include "bake/bind/SkinCut.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "bake/respond/MuscleShares.h"
+#include "bake/bind/MuscleShares.h"
 
 #include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleVolume.h"

@@ -1,7 +1,7 @@
-#include "bake/respond/MuscleShares.h"
+#include "bake/bind/MuscleShares.h"
 
+#include "bake/bind/SkinShares.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/respond/SkinShares.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // Shells of a skin that no bone begins on: clothes, shoes, things in a hand.
 #include "bake/base/Infinity.h"
-#include "bake/respond/SkinShares.h"
+#include "bake/bind/SkinShares.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,10 @@
 #pragma once
-#include "bake/respond/SkinRig.h"
-#include "bake/respond/SkinShares.h"
+#include "bake/bind/SkinParameters.h"
+#include "bake/bind/SkinShares.h"
+#include "bake/motion/ClosestPointQuery.h"
+#include "bake/motion/MuscleDeformer.h"
+
+#include <memory>
 
 namespace tss {
 

@@ -1,7 +1,8 @@
-#include "bake/respond/SkinAttachment.h"
+#include "bake/bind/SkinAttachment.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
+#include "bake/bind/SkinNormals.h"
 #include "bake/geometry/MeshQuery.h"
 
 #include <algorithm>

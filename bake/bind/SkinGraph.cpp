@@ -1,4 +1,4 @@
-#include "bake/respond/SkinGraph.h"
+#include "bake/bind/SkinGraph.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,8 @@
 #pragma once
-#include "bake/respond/SkinRig.h"
+#include "bake/bind/SkinParameters.h"
+#include "bake/motion/MuscleDeformer.h"
+
+#include <memory>
 
 namespace tss {
 
