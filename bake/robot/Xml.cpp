@@ -83,9 +83,7 @@ Where placeOf(const std::string& file, const XMLElement& element) {
 std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const std::string& file,
                                                 const std::string& root) {
     if (text.size() > mostBytes) throw InputError(Where{file}, "expected no more than 8 MiB of XML");
-    // Zeros at the end are those of a string that was written with them.
-    if (!isUtf8(text) || text.find('\0') < text.find_last_not_of('\0'))
-        throw InputError(Where{file}, "expected text in UTF-8");
+    if (!isText(text)) throw InputError(Where{file}, "expected text in UTF-8");
     auto document = std::make_unique<tinyxml2::XMLDocument>();
     if (document->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
         if (const auto at = text.find("<!DOCTYPE"); at != text.npos)

@@ -40,4 +40,9 @@ inline bool isUtf8(std::string_view text) {
     return true;
 }
 
+/// UTF-8 without zeros; those at its end are of a string that was written with them.
+inline bool isText(std::string_view text) {
+    return isUtf8(text) && !(text.find('\0') < text.find_last_not_of('\0'));
+}
+
 } // namespace tss

@@ -5,6 +5,7 @@
 #include "bake/robot/MeshFiles.h"
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
+#include "bake/scene/Utf8.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_USDA
@@ -19,8 +20,9 @@ namespace tss::tool {
 
 namespace {
 
-/// The name of an XML text's first element; empty where it has none.
+/// The name of an XML text's first element; empty where it has none, or is no text.
 std::string rootName(const std::string& text) {
+    if (!isText(text)) return "";
     for (auto at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
         if (text.compare(at, 4, "<!--") == 0) {
             at = text.find("-->", at);
