@@ -1,6 +1,7 @@
 #include "bake/base/AtomicFile.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/GitLfs.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -124,6 +125,7 @@ std::string readWholeFile(const std::string& file) {
         have += static_cast<std::size_t>(got);
     }
     content.resize(have);
+    expectFetched(file, content);
     return content;
 }
 

@@ -4,6 +4,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/GitLfs.h"
 #include "bake/base/Subprocess.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/MeshFileParts.h"
@@ -94,13 +95,17 @@ std::uint32_t readNumber(std::istream& stream) {
     return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
 }
 
-/// A PLY whose header has no end, for which an importer would look for ever. Throws InputError.
-void expectEndedPly(const std::string& file) {
-    constexpr std::size_t most = 1 << 16; // of a header
+/// The first bytes of a file.
+std::string beginOf(const std::string& file, std::size_t most) {
     std::ifstream stream(file, std::ios::binary);
     std::string begin(most, '\0');
-    stream.read(begin.data(), most);
+    stream.read(begin.data(), static_cast<std::streamsize>(most));
     begin.resize(static_cast<std::size_t>(stream.gcount()));
+    return begin;
+}
+
+/// A PLY whose header has no end, for which an importer would look for ever. Throws InputError.
+void expectEndedPly(const std::string& file, const std::string& begin) {
     if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
         throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
 }
@@ -284,8 +289,10 @@ MeshFile readMeshFile(const std::string& file) {
     if (!fs::exists(file, error)) throw InputError(Where{file}, "no such file");
     if (!fs::is_regular_file(file, error))
         throw InputError(Where{file}, "not a file, a mesh file was expected");
+    const std::string begin = beginOf(file, 1 << 16); // as long as a header may be
+    expectFetched(file, begin);
     expectWholeGlb(file);
-    expectEndedPly(file);
+    expectEndedPly(file, begin);
     // 4 GB, and what a large file takes that is packed.
     const std::size_t memory = (std::size_t(4) << 30) + 64 * fs::file_size(file);
     try {

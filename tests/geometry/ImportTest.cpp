@@ -114,6 +114,9 @@ TEST_CASE("a file that is no mesh is refused by its name and the reason") {
     CHECK(refusal(OSGTSS_BINARY_DIR).find("not a file") != std::string::npos);
     const TemporaryFile text("words.txt", "these are words\n");
     CHECK(refusal(text.name).find("cannot be read as a mesh") != std::string::npos);
+    const TemporaryFile pointer("large.stl",
+                                "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
+    CHECK(refusal(pointer.name).find("large.stl: is a pointer of Git LFS") != std::string::npos);
     const TemporaryFile empty("empty.obj", "");
     CHECK_FALSE(refusal(empty.name).empty());
     const TemporaryFile points("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");

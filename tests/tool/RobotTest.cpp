@@ -180,6 +180,9 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
             "config.xml: expected the <robot> of a URDF or the <mujoco> of an MJCF, found <config>");
     writeText(folder.path() / "wide.urdf", std::string("\xFF\xFE<\0r\0o\0b\0o\0t\0/\0>\0", 18)); // UTF-16
     refused("wide.urdf -o out.tss", 1, "wide.urdf: expected text in UTF-8");
+    writeText(folder.path() / "large.urdf",
+              "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
+    refused("large.urdf -o out.tss", 1, "large.urdf: is a pointer of Git LFS");
     std::filesystem::rename(folder.path() / "my_arm", folder.path() / "moved");
     refused("alone/arm.urdf -o out.tss", 1,
             "alone/arm.urdf: line 4 (<link upper-arm>): file \"package://my_arm/upper.obj\"");
