@@ -2,6 +2,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
 #include "bake/robot/ReadMsh.h"
@@ -16,6 +17,10 @@ namespace tss {
 namespace {
 
 constexpr std::size_t mostTriangles = 4'000'000;
+
+bool isPoint(const RobotShape& shape) {
+    return shape.kind != RobotShape::Kind::Mesh && shape.size.isZero(0);
+}
 
 class SceneMaker {
 public:
@@ -41,6 +46,8 @@ public:
         if (!others_.empty())
             result_.notes.push_back("these have no " + std::string(request_.visual ? "visual" : "collision") +
                                     " geometry that can be had, and their other one is taken: " + others_);
+        if (!points_.empty())
+            result_.notes.push_back("left out: points, shapes of no size: " + firstOf(points_, 20));
         if (!shapeless_.empty())
             result_.notes.push_back("these have no shape then, and whether they collide is not known: " +
                                     shapeless_);
@@ -86,7 +93,7 @@ private:
 
     void append(const RobotShape& shape, const std::string& file, TriangleMesh& whole) {
         if (!shape.problem.empty()) throw InputError(shape.problem);
-        if (shape.kind != RobotShape::Kind::Mesh && shape.size.isZero(0)) return; // a point
+        if (isPoint(shape)) return;
         const TriangleMesh mesh = shape.mesh                             ? *shape.mesh
                                   : shape.kind == RobotShape::Kind::Mesh ? meshOfFile(shape, file)
                                                                          : meshOf(shape);
@@ -142,6 +149,8 @@ private:
         };
         if (!take(request_.visual) && take(!request_.visual))
             others_ += (others_.empty() ? "" : ", ") + link.name;
+        if (std::ranges::any_of(request_.visual ? link.visual : link.collision, isPoint))
+            points_.push_back(link.name);
         for (std::size_t k = failed; k < failures_.size(); ++k)
             result_.notes.push_back(std::string("left out: ") + failures_[k].what());
         if (failures_.size() > failed && body.mesh.empty())
@@ -267,6 +276,7 @@ private:
     std::string others_;               ///< links that are made of the other kind of shapes
     std::vector<InputError> failures_; ///< shapes that could not be had
     std::string shapeless_;            ///< links that have none for that
+    std::vector<std::string> points_;  ///< links with a shape that is a point
     std::vector<std::string> renamed_; ///< joints, as notes
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;

@@ -50,6 +50,7 @@ TEST_CASE(
     CHECK(robot.links[2].visual);
     CHECK(robot.scene.pairs.size() == 1); // of a and c
     CHECK(hasNote(robot.notes, "left out: arm.urdf: line 4 (<link b>): "));
+    CHECK(hasNote(robot.notes, "left out: points, shapes of no size: d"));
     CHECK(robot.notes.back() == "these have no shape then, and whether they collide is not known: b, e");
     CHECK(refusedUrdf(robotOf(aLink("a", lost))).find("arm.urdf: line 3 (<link a>): ") != std::string::npos);
 }

@@ -224,6 +224,7 @@ private:
     std::vector<Solid> solidsOf(const Items& items) const {
         std::vector<Solid> solids;
         for (const auto& item : items) solids.push_back(solidOf(*item->geometry, poseOf(item->origin)));
+        std::erase_if(solids, [](const Solid& s) { return s.corners.empty() && s.size.isZero(0); }); // points
         return solids;
     }
 
