@@ -76,6 +76,7 @@ private:
             if (std::ranges::find(listOps, key) != listOps.end() && cursor_.atWord())
                 op = std::exchange(key, cursor_.word("a key", true));
             cursor_.expect('=');
+            if (key == "relocates") cursor_.refuse("relocates are not read"); // of a prim, or of a layer
             cursor_.spend(sizeof(Value::Object::value_type) + 64);
             readKey(key, op);
         }
@@ -104,8 +105,6 @@ private:
         const auto list = std::ranges::find_if(lists, [&](const auto& l) { return key == l.first; });
         if (key == "variants") {
             metadata["variantSelection"] = Value(parseUsdaDictionary(cursor_, 1));
-        } else if (key == "relocates") {
-            cursor_.refuse("relocates are not read");
         } else if (key == "clips" || key == "clipSets") {
             parseUsdaValue(cursor_, 1);
             note("value clips of " + cursor_.openPath());
