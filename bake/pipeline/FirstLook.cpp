@@ -80,9 +80,10 @@ double usualTolerance(const SceneModel& scene) {
 
 double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest) {
     const double millimetres = 1000 * scene.metersPerUnit, usual = millimetres * usualTolerance(scene);
+    const double least = usual / 100; // fitted parts, where a bake makes spheres finer by itself
     std::vector<std::pair<double, const Pair*>> rooms; // millimetres
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
-        if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > 0 && room < usual)
+        if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > least && room < usual)
             rooms.emplace_back(room, &scene.pairs[k]);
     std::ranges::sort(rooms, {}, &std::pair<double, const Pair*>::first);
     const Stopwatch watch;

@@ -217,6 +217,13 @@ TEST_CASE("make proposes a tolerance that leaves parts their room, and tells of 
     INFO(apart.err);
     CHECK(apart.err.find("-o BAKED.tss --tolerance 3mm --budget") == std::string::npos);
     CHECK(apart.err.find("-o BAKED.tss --tolerance ") != std::string::npos);
+    // Nor does one so small that no spheres of a first look leave any of it.
+    writeObj(boxMesh({-1, -1, 1e-4}, {1, 1, 0.5}), folder / "lid.obj");
+    const auto proposed = [](const std::string& text) {
+        const auto at = text.find("--tolerance");
+        return text.substr(at, text.find(" --budget", at) - at);
+    };
+    CHECK(proposed(made("-0.1:0.5").err) == proposed(apart.err));
 
     writeObj(boxMesh({1.2, -0.2, -0.5}, {1.8, 0.2, 0.3}), folder / "arm.obj");
     writeObj(boxMesh({0.9, -0.2, -0.6}, {1.1, 0.2, -0.2}), folder / "hand.obj"); // half in the block
