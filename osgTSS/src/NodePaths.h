@@ -10,6 +10,21 @@ inline osg::NodePathList pathsFrom(osg::Node& above, osg::Node& node) {
     return paths;
 }
 
+/// Whether there is one.
+inline bool isBelow(const osg::Node& node, const osg::Node& above) {
+    if (&node == &above) return true;
+    for (unsigned int k = 0; k < node.getNumParents(); ++k)
+        if (isBelow(*node.getParent(k), above)) return true;
+    return false;
+}
+
+/// Of a transform alone.
+inline osg::Matrixd ownMatrix(const osg::Transform& transform) {
+    osg::Matrix matrix;
+    transform.computeLocalToWorldMatrix(matrix, nullptr);
+    return matrix;
+}
+
 /// From the coordinates at the end of a path to those that its first node hangs in, whatever is hidden on the
 /// way, which osg::computeLocalToWorld() leaves out.
 inline osg::Matrixd alongPath(const osg::NodePath& path) {

@@ -1,11 +1,11 @@
 #include "SceneCache.h"
+#include "UserValues.h"
 
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/scene/WriteLayer.h"
 
-#include <osg/UserDataContainer>
 #include <osgTSS/Scene>
 
 #include <cmath>
@@ -54,18 +54,12 @@ std::string Scene::getText() const {
 void Scene::attachTo(osg::Node& node) {
     osg::ref_ptr<Scene> keep = this;
     osg::UserDataContainer* container = node.getOrCreateUserDataContainer();
-    for (unsigned int i = container->getNumUserObjects(); i-- > 0;)
-        if (dynamic_cast<Scene*>(container->getUserObject(i))) container->removeUserObject(i);
+    while (Scene* before = on(node)) container->removeUserObject(container->getUserObjectIndex(before));
     container->addUserObject(this);
 }
 
 Scene* Scene::on(const osg::Node& node) {
-    const osg::UserDataContainer* container = node.getUserDataContainer();
-    if (!container) return nullptr;
-    for (unsigned int i = 0; i < container->getNumUserObjects(); ++i)
-        if (auto* scene = dynamic_cast<const Scene*>(container->getUserObject(i)))
-            return const_cast<Scene*>(scene);
-    return nullptr;
+    return userObjectOf<Scene>(const_cast<osg::Node&>(node));
 }
 
 } // namespace osgTSS

@@ -2,8 +2,8 @@
 
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/NodePaths.h"
+#include "osgTSS/src/UserValues.h"
 
-#include <osg/UserDataContainer>
 #include <osg/ValueObject>
 #include <osgAnimation/MorphGeometry>
 #include <osgTSS/Convert>
@@ -48,12 +48,9 @@ double bodyScale(const osg::Node& node) {
 }
 
 osg::Drawable* replacedBy(osg::Drawable& drawable) {
-    osg::UserDataContainer* container =
-        dynamic_cast<SkinGeometry*>(&drawable) ? drawable.getUserDataContainer() : nullptr;
-    for (unsigned int k = 0; container && k < container->getNumUserObjects(); ++k)
-        if (auto* replaced = dynamic_cast<osg::Drawable*>(container->getUserObject(k)))
-            return morphBefore(drawable, *replaced);
-    return nullptr;
+    osg::Drawable* replaced =
+        dynamic_cast<SkinGeometry*>(&drawable) ? userObjectOf<osg::Drawable>(drawable) : nullptr;
+    return replaced ? morphBefore(drawable, *replaced) : nullptr;
 }
 
 void tagCarrier(SkinGeometry& skin, const std::string& bodyPath) {

@@ -5,7 +5,7 @@
 #include "SoftTags.h"
 #include "TagCheck.h"
 #include "osgTSS/src/EachNode.h"
-#include "osgTSS/src/UserFlag.h"
+#include "osgTSS/src/UserValues.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/BoneMotion.h"
 #include "osgTSS/src/joints/JointKinds.h"

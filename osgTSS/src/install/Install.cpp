@@ -1,7 +1,7 @@
 #include "InstallSkins.h"
 #include "bake/base/UnionFind.h"
 #include "osgTSS/src/EachNode.h"
-#include "osgTSS/src/UserFlag.h"
+#include "osgTSS/src/UserValues.h"
 #include "osgTSS/src/extract/Machines.h"
 #include "osgTSS/src/extract/MovedNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"

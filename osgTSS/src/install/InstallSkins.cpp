@@ -72,7 +72,7 @@ osg::ref_ptr<SkinGeometry> shownInsteadOf(osg::Drawable& drawable, const std::st
 std::vector<osg::Group*> parentsBelow(osg::Node& root, osg::Drawable& drawable) {
     std::vector<osg::Group*> parents;
     for (osg::Group* parent : drawable.getParents())
-        if (!pathsFrom(root, *parent).empty()) parents.push_back(parent);
+        if (isBelow(*parent, root)) parents.push_back(parent);
     return parents;
 }
 

@@ -1,5 +1,6 @@
 #include "AnimationChannels.h"
 
+#include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
 
 #include <osgAnimation/AnimationManagerBase>
@@ -22,14 +23,6 @@ void timesOf(const KeyframeContainer& container, std::vector<double>& times) {
     (add(dynamic_cast<const Containers*>(&container)) || ...);
 }
 
-std::vector<AnimationManagerBase*> managersOn(osg::Node& node) {
-    std::vector<AnimationManagerBase*> found;
-    for (osg::Callback* callback = node.getUpdateCallback(); callback;
-         callback = callback->getNestedCallback())
-        if (auto* manager = dynamic_cast<AnimationManagerBase*>(callback)) found.push_back(manager);
-    return found;
-}
-
 /// The node itself first.
 void addAbove(const osg::Node& node, std::vector<const osg::Node*>& above) {
     if (std::ranges::find(above, &node) != above.end()) return;
@@ -42,7 +35,7 @@ void addAbove(const osg::Node& node, std::vector<const osg::Node*>& above) {
 std::vector<AnimationManagerBase*> animationManagers(osg::Node& root) {
     std::vector<AnimationManagerBase*> found;
     eachNode(root, [&](osg::Node& node) {
-        for (AnimationManagerBase* manager : managersOn(node))
+        for (AnimationManagerBase* manager : callbacksOf<AnimationManagerBase>(node.getUpdateCallback()))
             if (std::ranges::find(found, manager) == found.end()) found.push_back(manager);
     });
     return found;
@@ -51,7 +44,7 @@ std::vector<AnimationManagerBase*> animationManagers(osg::Node& root) {
 AnimationChannels::AnimationChannels(osg::Node& root) {
     eachNode(root, [&](osg::Node& node) {
         if (_managed.contains(&node)) return; // it has several parents
-        for (AnimationManagerBase* manager : managersOn(node))
+        for (AnimationManagerBase* manager : callbacksOf<AnimationManagerBase>(node.getUpdateCallback()))
             for (const auto& animation : manager->getAnimationList()) {
                 std::map<std::string, Channels> targets;
                 for (const auto& channel : animation->getChannels())

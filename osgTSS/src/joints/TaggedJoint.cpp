@@ -2,6 +2,7 @@
 
 #include "AxisDofs.h"
 #include "DofWords.h"
+#include "osgTSS/src/NodePaths.h"
 
 #include "bake/base/Error.h"
 
@@ -28,12 +29,6 @@ tss::Vec3 taggedPivot(const osg::Node& node) {
     osg::Vec3f single;
     if (!node.getUserValue(pivotTag, pivot) && node.getUserValue(pivotTag, single)) pivot = single;
     return toCore(pivot);
-}
-
-osg::Matrixd matrixOf(const osg::Transform& node) {
-    osg::Matrixd matrix;
-    node.computeLocalToWorldMatrix(matrix, nullptr);
-    return matrix;
 }
 
 /// Slides before turns, each axis once, with limits that hold 0.
@@ -67,7 +62,7 @@ public:
           _fromPivot(osg::Matrixd::translate(-toOsg(taggedPivot(node)))) {}
 
     std::vector<double> asked() const override {
-        const osg::Matrixd now = matrixOf(*_node);
+        const osg::Matrixd now = ownMatrix(*_node);
         const std::size_t count = _dofs.dofs().size();
         if (!isFinite(now)) return std::vector<double>(count, std::numeric_limits<double>::quiet_NaN());
         const auto rigid =
@@ -78,7 +73,7 @@ public:
 
     std::optional<Stray> stray() const override {
         const std::vector<double> values = asked();
-        const osg::Matrixd now = matrixOf(*_node), known = stateAt(values);
+        const osg::Matrixd now = ownMatrix(*_node), known = stateAt(values);
         const double size = 1 + osg::Vec3d(now.getTrans() - _toRest.getTrans()).length();
         double scale = 0;
         for (int i = 0; i < 12; ++i) scale = std::max(scale, std::abs(_toRest.ptr()[i]));
@@ -91,7 +86,7 @@ public:
     }
 
 private:
-    osg::Matrixd read() const override { return matrixOf(*_node); }
+    osg::Matrixd read() const override { return ownMatrix(*_node); }
 
     osg::Matrixd stateAt(const std::vector<double>& values) const override {
         return _fromPivot * toOsg(_dofs.poseAt(values)) * _toRest;
@@ -126,7 +121,7 @@ FoundJoints taggedJoint(osg::Transform& node) {
                               ": expected it on a MatrixTransform or a PositionAttitudeTransform");
     osg::Matrixd rest;
     if (!node.getUserValue(restTag, rest)) {
-        rest = matrixOf(node);
+        rest = ownMatrix(node);
         node.setUserValue(restTag, rest);
     }
     const auto similarity = toSimilarity(rest);

@@ -1,6 +1,8 @@
 #include "PerNode.h"
 #include "StandingParts.h"
+#include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
+#include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/extract/Machines.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
@@ -18,13 +20,6 @@
 namespace osgTSS {
 
 namespace {
-
-bool isBelow(const osg::Node& node, const osg::Node& root) {
-    if (&node == &root) return true;
-    for (unsigned int k = 0; k < node.getNumParents(); ++k)
-        if (isBelow(*node.getParent(k), root)) return true;
-    return false;
-}
 
 bool standsOn(const osg::Node& node, const osg::Callback& callback) {
     const osg::Callback* at = node.getUpdateCallback();
@@ -66,8 +61,8 @@ struct LimitsCallback::Watch {
             }
         }
         eachNode(node, [&](osg::Node& below) {
-            for (osg::Callback* at = below.getUpdateCallback(); at; at = at->getNestedCallback())
-                if (auto* holder = dynamic_cast<JointCallback*>(at)) holders.push_back({&below, holder});
+            for (JointCallback* holder : callbacksOf<JointCallback>(below.getUpdateCallback()))
+                holders.push_back({&below, holder});
         });
     }
 

@@ -66,7 +66,7 @@ bool PairBodies::hold(const osg::NodePath& path) const {
 
 bool PairBodies::isBelow(int body, osg::Node& node) const {
     osg::Node* of = _visitor.getBodyNodes()[body].node;
-    return of && !pathsFrom(node, *of).empty();
+    return of && osgTSS::isBelow(*of, node);
 }
 
 /// Whether a joint with tables at or below a node is none as it stands now, as where it is sheared.

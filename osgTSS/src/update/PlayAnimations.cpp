@@ -1,7 +1,7 @@
 #include "bake/base/Error.h"
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
-#include "osgTSS/src/UserFlag.h"
+#include "osgTSS/src/UserValues.h"
 #include "osgTSS/src/joints/AnimationChannels.h"
 #include "osgTSS/src/joints/DofState.h"
 #include "osgTSS/src/joints/JointKinds.h"

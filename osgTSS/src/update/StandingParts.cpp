@@ -2,7 +2,7 @@
 
 #include "PairBodies.h"
 #include "osgTSS/src/NodePaths.h"
-#include "osgTSS/src/UserFlag.h"
+#include "osgTSS/src/UserValues.h"
 #include "osgTSS/src/extract/MovedNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
@@ -35,12 +35,6 @@ bool isJoint(osg::Node& node) {
 bool movesOtherwise(osg::Node& node) {
     return dynamic_cast<osg::AutoTransform*>(&node) || dynamic_cast<osg::Camera*>(&node) ||
            dynamic_cast<osgAnimation::Skeleton*>(&node) || movesItself(node) || hasFlag(node, "osgTSS:moved");
-}
-
-osg::Matrix placeOf(const osg::Node& transform) {
-    osg::Matrix matrix;
-    transform.asTransform()->computeLocalToWorldMatrix(matrix, nullptr);
-    return matrix;
 }
 
 /// What osgTSS shows left out.
@@ -119,7 +113,7 @@ private:
             held = {true};
         } else if (node.asTransform() && held.any) {
             part.known = held.known;
-            part.place = placeOf(node);
+            part.place = ownMatrix(*node.asTransform());
             held.whole.push_back(_machine.parts.size());
         }
         _machine.parts.push_back(std::move(part));
@@ -145,7 +139,8 @@ bool StandingParts::isOther(const Part& part) {
     osg::Node* node = part.node.get();
     if (!node) return false;
     const auto same = [](const Child& was, const osg::Node* is) { return was.node.get() == is; };
-    return verticesOf(*node) != part.vertices || (part.place && placeOf(*node) != *part.place) ||
+    return verticesOf(*node) != part.vertices ||
+           (part.place && ownMatrix(*node->asTransform()) != *part.place) ||
            !std::ranges::equal(part.children, childrenOf(*node), same);
 }
 
@@ -155,7 +150,7 @@ std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
     const std::vector<osg::Node*> children = childrenOf(node);
     const std::string geometry = "the geometry at node \"" + node.getName() + "\" is other than";
     for (const osg::NodePath& path : pathsFrom(_root, node)) {
-        const bool moved = part.place && placeOf(node) != *part.place;
+        const bool moved = part.place && ownMatrix(*node.asTransform()) != *part.place;
         if (moved || verticesOf(node) != part.vertices) {
             // What a callback moves since then is a body of its own now.
             const osg::NodePath above(path.begin(), path.end() - 1);

@@ -1,6 +1,6 @@
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/SceneCache.h"
-#include "osgTSS/src/UserFlag.h"
+#include "osgTSS/src/UserValues.h"
 
 #include <osg/Stats>
 #include <osgGA/EventVisitor>
