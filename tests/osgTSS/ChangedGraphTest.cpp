@@ -82,6 +82,14 @@ TEST_CASE("vertices of a body that change are told of, though they are as many a
         yard.geometry->setVertexArray(cornersFrom(3));
         CHECK(yard.told(otherThanThen) == 1);
     }
+    SECTION("other primitive sets over the same vertices") {
+        yard.geometry->setPrimitiveSet(0, new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+        CHECK(yard.told(otherThanThen) == 1);
+    }
+    SECTION("fewer corners in the same primitive set") {
+        static_cast<osg::DrawArrays&>(*yard.geometry->getPrimitiveSet(0)).setCount(3);
+        CHECK(yard.told(otherThanThen) == 1);
+    }
     SECTION("another shape") {
         yard.shape->setShape(new osg::Box(osg::Vec3(5, 0, 0), 4, 1, 1));
         yard.shape->build();

@@ -48,15 +48,26 @@ std::vector<osg::Node*> childrenOf(osg::Node& node) {
 
 } // namespace
 
-/// Of what osgAnimation deforms every update, the number alone.
-StandingParts::Vertices StandingParts::verticesOf(const osg::Node& node) {
+/// Of what osgAnimation deforms every update, the number of vertices alone.
+StandingParts::Drawn StandingParts::drawnBy(const osg::Node& node) {
     const osg::Geometry* geometry = node.asGeometry();
-    const osg::Array* array = geometry ? geometry->getVertexArray() : nullptr;
-    if (!array) return {};
-    const bool deformed = dynamic_cast<const osgAnimation::RigGeometry*>(geometry) ||
-                          dynamic_cast<const osgAnimation::MorphGeometry*>(geometry);
-    return deformed ? Vertices{nullptr, array->getNumElements(), 0}
-                    : Vertices{array, array->getNumElements(), array->getModifiedCount()};
+    const osg::Array* vertices = geometry ? geometry->getVertexArray() : nullptr;
+    if (!vertices) return {};
+    Drawn drawn;
+    drawn.count = vertices->getNumElements();
+    if (dynamic_cast<const osgAnimation::RigGeometry*>(geometry) ||
+        dynamic_cast<const osgAnimation::MorphGeometry*>(geometry))
+        return drawn;
+    drawn.vertices = vertices;
+    drawn.modified = vertices->getModifiedCount();
+    for (const auto& set : geometry->getPrimitiveSetList())
+        if (set)
+            for (const std::size_t value :
+                 {reinterpret_cast<std::size_t>(set.get()), std::size_t(set->getMode()),
+                  std::size_t(set->getNumIndices()), std::size_t(set->getModifiedCount())})
+                drawn.primitives =
+                    (drawn.primitives ^ value) * 0x9e3779b97f4a7c15; // golden ratio: spreads bits
+    return drawn;
 }
 
 /// Machine by machine, which is all that joints hold together, and body by body of each.
@@ -102,7 +113,7 @@ private:
         if (dynamic_cast<osg::PagedLOD*>(&node)) return {};
         _seen.insert(&node);
         Held held{node.asDrawable() != nullptr, node.asDrawable() && known};
-        Part part{&node, known, verticesOf(node)};
+        Part part{&node, known, drawnBy(node)};
         for (osg::Node* child : childrenOf(node)) {
             Held below = addBelow(*child, known);
             part.children.push_back({child, below.known});
@@ -139,8 +150,7 @@ bool StandingParts::isOther(const Part& part) {
     osg::Node* node = part.node.get();
     if (!node) return false;
     const auto same = [](const Child& was, const osg::Node* is) { return was.node.get() == is; };
-    return verticesOf(*node) != part.vertices ||
-           (part.place && ownMatrix(*node->asTransform()) != *part.place) ||
+    return drawnBy(*node) != part.drawn || (part.place && ownMatrix(*node->asTransform()) != *part.place) ||
            !std::ranges::equal(part.children, childrenOf(*node), same);
 }
 
@@ -151,7 +161,7 @@ std::string StandingParts::whatConcerns(const Part& part, PairBodies& bodies) {
     const std::string geometry = "the geometry at node \"" + node.getName() + "\" is other than";
     for (const osg::NodePath& path : pathsFrom(_root, node)) {
         const bool moved = part.place && ownMatrix(*node.asTransform()) != *part.place;
-        if (moved || verticesOf(node) != part.vertices) {
+        if (moved || drawnBy(node) != part.drawn) {
             // What a callback moves since then is a body of its own now.
             const osg::NodePath above(path.begin(), path.end() - 1);
             const bool own = moved && movesOtherwise(node);

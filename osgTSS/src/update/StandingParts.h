@@ -17,11 +17,12 @@ namespace osgTSS {
 class PairBodies;
 
 /// A graph as it was when its tables were installed: of each group its children, of each geometry its
-/// vertices (the array, and how often it was said to be dirty), of each transform that nothing is known to
-/// move its matrix, unless it carries all that joints hold together. What has become other concerns the
-/// tables if it was part of a body of a pair, parts the two bodies of one, or may touch one at some pose of
-/// the joints. If not, the graph is remembered as it is then, and what has come may change and go again as
-/// long as it meets nothing. What moves by itself, what osgTSS shows and what is paged does not count.
+/// vertices and primitive sets (which, and how often they were said to be dirty), of each transform that
+/// nothing is known to move its matrix, unless it carries all that joints hold together. What has become
+/// other concerns the tables if it was part of a body of a pair, parts the two bodies of one, or may touch
+/// one at some pose of the joints. If not, the graph is remembered as it is then, and what has come may
+/// change and go again as long as it meets nothing. What moves by itself, what osgTSS shows and what is paged
+/// does not count.
 class StandingParts {
 public:
     /// model: whose pairs have been installed in the graph.
@@ -36,10 +37,11 @@ public:
 
 private:
     /// Whether they are the same is told without looking at each.
-    struct Vertices {
-        const osg::Array* array = nullptr;
+    struct Drawn {
+        const osg::Array* vertices = nullptr;
         unsigned int count = 0, modified = 0;
-        friend bool operator==(const Vertices&, const Vertices&) = default;
+        std::size_t primitives = 0; ///< a number that is another for other primitive sets
+        friend bool operator==(const Drawn&, const Drawn&) = default;
     };
     struct Child {
         osg::observer_ptr<osg::Node> node;
@@ -48,13 +50,13 @@ private:
     struct Part {
         osg::observer_ptr<osg::Node> node;
         bool known; ///< as of a child
-        Vertices vertices;
+        Drawn drawn;
         std::vector<Child> children{};
         std::optional<osg::Matrix> place{};
     };
     class Collect;
 
-    static Vertices verticesOf(const osg::Node& node);
+    static Drawn drawnBy(const osg::Node& node);
     bool cameSince(osg::Node& node) const;
     static bool isOther(const Part& part);
     std::string whatConcerns(const Part& part, PairBodies& bodies);
