@@ -58,6 +58,18 @@ osg::ref_ptr<osg::Array> points() {
     return array;
 }
 
+/// Integers count tenths; the cube is drawn below a scale.
+template <class Array>
+osg::ref_ptr<osg::Array> tenths() {
+    osg::ref_ptr<Array> array = new Array;
+    for (const osg::Vec3d& p : corners(2)) {
+        typename Array::ElementDataType point;
+        for (int k = 0; k < 3; ++k) point[k] = typename Array::ElementDataType::value_type(p[k]);
+        array->push_back(point);
+    }
+    return array;
+}
+
 template <>
 inline osg::ref_ptr<osg::Array> points<osg::Vec4Array>() {
     osg::ref_ptr<osg::Vec4Array> array = new osg::Vec4Array;
@@ -97,6 +109,16 @@ inline std::vector<std::pair<std::string, osg::ref_ptr<osg::Geometry>>> cubes() 
         {"Doubles", cube(elements<osg::DrawElementsUByte>(GL_QUADS, allQuads()), points<osg::Vec3dArray>())},
         {"Weighted", cube(elements<osg::DrawElementsUByte>(GL_QUADS, allQuads()), points<osg::Vec4Array>())},
     };
+}
+
+/// The same in whole tenths.
+inline std::vector<std::pair<std::string, osg::ref_ptr<osg::Geometry>>> cubesInTenths() {
+    const auto of = [](osg::Array* vertices) {
+        return cube(elements<osg::DrawElementsUByte>(GL_QUADS, allQuads()), vertices);
+    };
+    return {{"Bytes", of(tenths<osg::Vec3bArray>())},
+            {"Shorts", of(tenths<osg::Vec3sArray>())},
+            {"Ints", of(tenths<osg::Vec3iArray>())}};
 }
 
 /// Geometry without any triangle.

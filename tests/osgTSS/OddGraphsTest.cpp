@@ -38,7 +38,13 @@ float reach(osg::Group& root) {
 } // namespace
 
 TEST_CASE("a cube is the same body whatever its triangles and vertices are stored as") {
-    for (const auto& [name, cube] : odd::cubes()) {
+    std::vector<std::pair<std::string, osg::ref_ptr<osg::Node>>> cubes;
+    for (const auto& [name, cube] : odd::cubes()) cubes.emplace_back(name, cube);
+    for (const auto& [name, cube] : odd::cubesInTenths()) {
+        cubes.emplace_back(name, new osg::MatrixTransform(osg::Matrixd::scale(0.1, 0.1, 0.1)));
+        cubes.back().second->asGroup()->addChild(cube);
+    }
+    for (const auto& [name, cube] : cubes) {
         CAPTURE(name);
         const osg::ref_ptr<osg::Group> root = yard(cube);
         const tss::SceneModel model = extract(*root);

@@ -5,6 +5,7 @@
 #include <osgTSS/Convert>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace osgTSS {
@@ -60,39 +61,30 @@ struct Corners {
     void operator()(unsigned int a, unsigned int b, unsigned int c) { all.push_back({a, b, c}); }
 };
 
-/// The places of a geometry's vertices, whatever they are stored as.
-class Vertices : public osg::ConstArrayVisitor {
-public:
-    using osg::ConstArrayVisitor::apply;
-    void apply(const osg::Vec2Array& array) override {
-        for (const osg::Vec2& v : array) add(v.x(), v.y(), 0);
+/// A number of an array, whatever it is stored as.
+double numberIn(const osg::Array& array, std::size_t index) {
+    const void* data = array.getDataPointer();
+    switch (array.getDataType()) {
+    case GL_BYTE:
+        return static_cast<const GLbyte*>(data)[index];
+    case GL_UNSIGNED_BYTE:
+        return static_cast<const GLubyte*>(data)[index];
+    case GL_SHORT:
+        return static_cast<const GLshort*>(data)[index];
+    case GL_UNSIGNED_SHORT:
+        return static_cast<const GLushort*>(data)[index];
+    case GL_INT:
+        return static_cast<const GLint*>(data)[index];
+    case GL_UNSIGNED_INT:
+        return static_cast<const GLuint*>(data)[index];
+    case GL_FLOAT:
+        return static_cast<const GLfloat*>(data)[index];
+    case GL_DOUBLE:
+        return static_cast<const GLdouble*>(data)[index];
+    default:
+        return std::numeric_limits<double>::quiet_NaN();
     }
-    void apply(const osg::Vec3Array& array) override {
-        for (const osg::Vec3& v : array) all.emplace_back(v);
-    }
-    void apply(const osg::Vec4Array& array) override {
-        for (const osg::Vec4& v : array) add(v);
-    }
-    void apply(const osg::Vec2dArray& array) override {
-        for (const osg::Vec2d& v : array) add(v.x(), v.y(), 0);
-    }
-    void apply(const osg::Vec3dArray& array) override { all.assign(array.begin(), array.end()); }
-    void apply(const osg::Vec4dArray& array) override {
-        for (const osg::Vec4d& v : array) add(v);
-    }
-    void apply(const osg::Vec3sArray& array) override {
-        for (const osg::Vec3s& v : array) add(v.x(), v.y(), v.z());
-    }
-
-    std::vector<osg::Vec3d> all;
-
-private:
-    void add(double x, double y, double z) { all.emplace_back(x, y, z); }
-    template <class Vec4>
-    void add(const Vec4& v) {
-        add(v.x() / v.w(), v.y() / v.w(), v.z() / v.w());
-    }
-};
+}
 
 bool shrunkToPoint(const osg::Matrixd& m) {
     for (int row = 0; row < 3; ++row)
@@ -109,9 +101,16 @@ double determinant(const osg::Matrixd& m) {
 }
 
 std::vector<osg::Vec3d> pointsOf(const osg::Geometry& geometry) {
-    Vertices vertices;
-    if (geometry.getVertexArray()) geometry.getVertexArray()->accept(vertices);
-    return std::move(vertices.all);
+    const osg::Array* array = geometry.getVertexArray();
+    const std::size_t size = array ? array->getDataSize() : 0;
+    if (size < 2 || size > 4) return {};
+    std::vector<osg::Vec3d> points(array->getNumElements());
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        for (std::size_t k = 0; k < std::min<std::size_t>(size, 3); ++k)
+            points[p][int(k)] = numberIn(*array, p * size + k);
+        if (size == 4) points[p] = points[p] / numberIn(*array, p * size + 3);
+    }
+    return points;
 }
 
 std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geometry) {
