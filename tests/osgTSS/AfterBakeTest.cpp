@@ -219,6 +219,41 @@ TEST_CASE("what is moved between install() and the first update is told of, and 
     CHECK(heard.times("does not fit the graph") == 1);
 }
 
+TEST_CASE("a joint whose scale changes between install() and the first update is let go and told of") {
+    SlideYard yard;
+    REQUIRE(yard.install().joints == 1);
+    yard.slide->setCurrentScale(osg::Vec3(2, 2, 2));
+    const Heard heard;
+    for (yard.frame = 0; yard.frame < 10; ++yard.frame) {
+        yard.slide->setCurrentTranslate(osg::Vec3(float(yard.frame), 0, 0));
+        yard.playback.frame(*yard.root, yard.frame);
+    }
+    CHECK(heard.times("its scale has changed; its tables know nothing there") == 1);
+    CHECK(yard.x() == 9);
+}
+
+TEST_CASE("a joint whose scale has changed stays let go when another node is taken out") {
+    SlideYard yard;
+    const auto other = nodes::dof("Other");
+    other->setMaxTranslate(osg::Vec3(0, 10, 0));
+    other->addChild(nodes::box(osg::Vec3(0, -5, 0), 0.5f));
+    yard.root->addChild(other);
+    tss::SceneModel model = nodes::extract(*yard.root, ConstraintVisitor::ALL);
+    for (std::size_t pair = 0; pair < model.pairs.size(); ++pair)
+        nodes::giveTable(model, pair, osg::Vec3(5, 0, 0), osg::Vec3(), 0.5);
+    REQUIRE(osgTSS::install(*yard.root, model).joints == model.pairs.size());
+    yard.playback.frames(*yard.root, 0, 3);
+    yard.slide->setCurrentScale(osg::Vec3(2, 2, 2));
+    yard.playback.frames(*yard.root, 4, 6);
+    yard.root->removeChild(other);
+    const Heard heard;
+    yard.playback.frames(*yard.root, 7, 8);
+    yard.slide->setCurrentTranslate(osg::Vec3(9, 0, 0));
+    yard.playback.frames(*yard.root, 9, 10);
+    CHECK(yard.x() == 9);
+    CHECK(heard.times("its scale has changed") == 0); // said already
+}
+
 TEST_CASE("a machine of JointTransforms is looked at below whatever root it hangs") {
     const osg::ref_ptr<osg::Group> tank = new osg::Group, world = new osg::Group;
     tank->setName("Tank");

@@ -25,6 +25,11 @@ struct BoundJoint {
     bool served = true;                       ///< false while it stands where no table of its knows it
     bool told = false;                        ///< that it went beyond its limits
 
+    /// Whether it is of this node: what it knows of the node is what tables were installed for, and is kept.
+    bool isOn(const osg::Node& node) const {
+        return access && access->valid() && !path.empty() && path.back() == &node;
+    }
+
     /// Whether the node hangs where it did. The nodes above are there as long as those below are.
     bool inPlace() const {
         for (std::size_t k = path.size(); k-- > 1;) {
@@ -62,9 +67,9 @@ struct JointCallback::Binding {
     bool updated = false;                  ///< there was one
     bool toldBeyond = false;               ///< that more is asked than the limits allow
 
-    Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths,
-            const Binding* before);
+    Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths, Binding* before);
 
+    void bind(osg::Node& owner, int index, osg::Node* node, Binding* before);
     bool stillGood(const Scene& scene) const {
         return model == scene.shareModel() && std::ranges::all_of(bound, [](const auto& entry) {
                    const BoundJoint& joint = entry.second;
@@ -83,45 +88,20 @@ struct JointCallback::Binding {
 
 /// before: what stood here, of the same graph; null at the start.
 JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
-                                const std::vector<std::string>& pairPaths, const Binding* before)
+                                const std::vector<std::string>& pairPaths, Binding* before)
     : model(scene.shareModel()) {
+    if (before && before->model != model) before = nullptr;
     const auto nodes = findJointNodes(owner);
     for (const std::string& path : pairPaths) {
         const int pair = tss::findPair(*model, path);
         if (pair < 0 || !model->pairs[pair].table) continue;
         for (int index : model->pairs[pair].joints) {
             if (bound.contains(index)) continue;
-            BoundJoint& joint = bound[index];
-            const tss::Joint& what = model->joints[index];
-            const auto node = nodes.find(what.path);
-            if (node != nodes.end()) {
-                joint.access = makeJointNode(*node->second.front(), what);
-                const osg::NodePathList paths = node->second.front()->getParentalNodePaths(&owner);
-                if (!paths.empty()) joint.path = paths.front();
-                joint.transforms = transformsOf(joint.path);
-                if (!skeletons && dynamic_cast<osgAnimation::Bone*>(node->second.front()))
-                    skeletons.emplace(owner);
-            }
-            const BoundJoint* old = nullptr;
-            if (before && before->updated && before->model == model)
-                if (const auto entry = before->bound.find(index); entry != before->bound.end())
-                    old = &entry->second;
-            if (!joint.access) {
-                if (old) joint.transforms = old->transforms;
-                if (!old || old->access)
-                    OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" carries joint "
-                             << what.path << (old ? " any more" : "") << "; its pairs are not kept apart"
-                             << std::endl;
-            } else if (old && !old->transforms.empty() && old->transforms != joint.transforms) {
-                OSG_WARN << "osgTSS: joint " << what.path
-                         << " hangs elsewhere than its tables were made for; "
-                         << "its pairs are not kept apart until install() is called again" << std::endl;
-                joint.access = nullptr;
-                joint.transforms = old->transforms;
-            }
+            const auto node = nodes.find(model->joints[index].path);
+            bind(owner, index, node != nodes.end() ? node->second.front() : nullptr, before);
         }
     }
-    if (before && before->model == model) {
+    if (before) {
         // Where the joints that are left are, so that none goes through anything meanwhile.
         plan = before->plan;
         q = before->q;
@@ -129,6 +109,37 @@ JointCallback::Binding::Binding(osg::Node& owner, const Scene& scene,
         contacts.lookAgain();
     }
     choose(scene, pairPaths);
+}
+
+/// node: that carries the joint; null: none does.
+void JointCallback::Binding::bind(osg::Node& owner, int index, osg::Node* node, Binding* before) {
+    BoundJoint& joint = bound[index];
+    const std::string& path = model->joints[index].path;
+    BoundJoint* known = before && before->bound.contains(index) ? &before->bound.at(index) : nullptr;
+    const BoundJoint* old = before && before->updated ? known : nullptr;
+    const bool lost = !old || old->access;
+    if (node) {
+        joint.access = makeJointNode(*node, model->joints[index]);
+        if (joint.access && known && known->isOn(*node)) {
+            joint.access = std::move(known->access);
+            joint.told = known->told;
+        }
+        const osg::NodePathList paths = node->getParentalNodePaths(&owner);
+        if (!paths.empty()) joint.path = paths.front();
+        joint.transforms = transformsOf(joint.path);
+        if (!skeletons && dynamic_cast<osgAnimation::Bone*>(node)) skeletons.emplace(owner);
+    }
+    if (!joint.access) {
+        if (old) joint.transforms = old->transforms;
+        if (lost)
+            OSG_WARN << "osgTSS: nothing below node \"" << owner.getName() << "\" carries joint " << path
+                     << (old ? " any more" : "") << "; its pairs are not kept apart" << std::endl;
+    } else if (old && !old->transforms.empty() && old->transforms != joint.transforms) {
+        OSG_WARN << "osgTSS: joint " << path << " hangs elsewhere than its tables were made for; "
+                 << "its pairs are not kept apart until install() is called again" << std::endl;
+        joint.access = nullptr;
+        joint.transforms = old->transforms;
+    }
 }
 
 /// Where a joint of the plan is.
@@ -271,8 +282,7 @@ void JointCallback::start(osg::Node& node) {
 
 JointCallback::Binding& JointCallback::bindingOf(osg::Node& node) {
     return _bindings->of(
-        node,
-        [&](const Binding* before) { return std::make_unique<Binding>(node, *_scene, _pairPaths, before); },
+        node, [&](Binding* before) { return std::make_unique<Binding>(node, *_scene, _pairPaths, before); },
         // Started, but not updated yet: the graph may have been optimized since.
         [&](const Binding& binding) { return binding.updated && binding.stillGood(*_scene); });
 }
