@@ -150,9 +150,9 @@ TEST_CASE("a joint that is asked beyond the limits of its table stops at them an
     const double limit = osg::DegreesToRadians(10.0);
     Heard heard;
     CHECK(it.turn(0.1f) == Approx(0.1));
-    CHECK(heard.times("beyond the limits that its tables were made for") == 0);
+    CHECK(heard.times("beyond the limits") == 0);
     CHECK(it.turn(0.5f) == Approx(limit));
     CHECK(it.turn(0.6f) == Approx(limit));
     CHECK(it.turn(-0.4f) == Approx(-limit));
-    CHECK(heard.times("beyond the limits that its tables were made for") == 1);
+    CHECK(heard.times("beyond the limits") == 1);
 }

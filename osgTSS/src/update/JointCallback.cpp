@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace osgTSS {
 
@@ -65,7 +66,6 @@ struct JointCallback::Binding {
     std::optional<SkeletonPose> skeletons; ///< where some joint is a bone
     unsigned int traversal = 0, frame = 0; ///< of the last update
     bool updated = false;                  ///< there was one
-    bool toldBeyond = false;               ///< that more is asked than the limits allow
 
     Binding(osg::Node& node, const Scene& scene, const std::vector<std::string>& pairPaths, Binding* before);
 
@@ -82,6 +82,7 @@ struct JointCallback::Binding {
     void restoreAsked() const;
     void resolve();
     bool movedSince() const;
+    void tell(int index, const Stray& stray);
     void tellBeyond();
     void show() const;
 };
@@ -185,14 +186,18 @@ void JointCallback::Binding::watch(const Scene& scene, const std::vector<std::st
         const bool servedNow = !stray || !stray->unserved;
         changed = changed || servedNow != joint.served;
         joint.served = servedNow;
-        if (!stray || joint.told) continue;
-        joint.told = true;
-        OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": " << stray->what << "; "
-                 << (stray->unserved ? "its tables know nothing there, and its pairs are not kept apart"
-                                     : "it is held at them")
-                 << std::endl;
+        if (stray) tell(index, *stray);
     }
     if (changed) choose(scene, pairPaths);
+}
+
+/// Once a joint.
+void JointCallback::Binding::tell(int index, const Stray& stray) {
+    if (std::exchange(bound.at(index).told, true)) return;
+    OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": " << stray.what << "; "
+             << (stray.unserved ? "its tables know nothing there, and its pairs are not kept apart"
+                                : "it is held at them")
+             << std::endl;
 }
 
 void JointCallback::Binding::restoreAsked() const {
@@ -207,7 +212,7 @@ void JointCallback::Binding::resolve() {
         const std::vector<double> values = joint->asked();
         asked.insert(asked.end(), values.begin(), values.end());
     }
-    if (!toldBeyond) tellBeyond();
+    tellBeyond();
     for (std::size_t k = 0; k < q.size(); ++k)
         if (!std::isfinite(asked[k])) asked[k] = q[k]; // it stays where it is
     askedLast = asked;
@@ -232,17 +237,14 @@ bool JointCallback::Binding::movedSince() const {
     return false;
 }
 
-/// Once: the graph asks for values that no table was made for, at whose limits the joint stops.
+/// The graph asks for values that no table was made for, at whose limits the joint stops.
 void JointCallback::Binding::tellBeyond() {
     std::size_t next = 0;
     for (int index : (*plan)->joints)
         for (const tss::Dof& dof : model->joints[index].dofs) {
-            const double value = asked[next++], hair = 1e-6 * (dof.upper - dof.lower);
-            if (toldBeyond || (value >= dof.lower - hair && value <= dof.upper + hair)) continue;
-            toldBeyond = true;
-            OSG_WARN << "osgTSS: joint " << model->joints[index].path << ": \"" << dof.name
-                     << "\" is asked to go beyond the limits that its tables were made for; it stops there"
-                     << std::endl;
+            const double value = asked[next++];
+            if (value >= dof.lower && value <= dof.upper) continue;
+            if (const auto beyond = beyondLimits(dof, value)) tell(index, *beyond);
         }
 }
 
