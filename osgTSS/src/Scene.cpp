@@ -1,3 +1,4 @@
+#include "DotOsg.h"
 #include "SceneCache.h"
 #include "UserValues.h"
 
@@ -17,7 +18,9 @@ Scene::Scene() : Scene(std::make_shared<tss::SceneModel>()) {}
 Scene::~Scene() = default;
 
 Scene::Scene(std::shared_ptr<const tss::SceneModel> model, Clock::Source source)
-    : _model(std::move(model)), _clock(*_model, source), _cache(std::make_shared<Cache>(_model)) {}
+    : _model(std::move(model)), _clock(*_model, source), _cache(std::make_shared<Cache>(_model)) {
+    warnOfDotOsg();
+}
 
 Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), _model(other._model), _clock(other._clock),

@@ -1,4 +1,5 @@
 #include "Files.h"
+#include "Heard.h"
 
 #include <catch2/catch.hpp>
 #include <osg/Geometry>
@@ -43,6 +44,15 @@ TEST_CASE("a joint built by hand comes back from .osgt bit for bit, with what it
     CHECK(again->getAskedValues() == joint->getAskedValues());
     CHECK(again->getDof(0).lower == -1. / 7);
     CHECK(again->getWorldMatrices().at(0) == joint->getWorldMatrices().at(0));
+}
+
+TEST_CASE("what the old .osg format loses is named") {
+    const osg::ref_ptr<osg::Node> root = files::load(files::saveHinge());
+    REQUIRE(root);
+    const Heard heard;
+    REQUIRE(osgDB::writeNodeFile(*root, (files::scratch() / "old.osg").string()));
+    CHECK(heard.times("JointTransform \"Hinge\" is lost in an .osg file") == 1);
+    CHECK(heard.times("LimitsCallback") == 1);
 }
 
 TEST_CASE("a skin comes back from .osgb with its shape at rest") {
