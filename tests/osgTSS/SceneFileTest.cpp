@@ -1,5 +1,6 @@
 #include "Files.h"
 #include "Heard.h"
+#include "Nodes.h"
 
 #include <osgTSS/JointCallback>
 #include <osgTSS/Scene>
@@ -54,6 +55,32 @@ TEST_CASE("a graph written as .tss and read again has the same states at the sam
     SECTION("also when it was written in the middle of playing") {
         REQUIRE(osgDB::writeNodeFile(*first, copy.string()));
         CHECK(states(*load(saveHinge())) == states(*load(copy)));
+    }
+}
+
+TEST_CASE("a graph that has become another since its tables came is written with a warning") {
+    const osg::ref_ptr<osg::Node> root = files::load(files::saveHinge());
+    REQUIRE(root);
+    const std::string file = (files::scratch() / "other.tss").string();
+    const Heard heard;
+    osgTSS::writeScene(*root, file);
+    CHECK(heard.times("the scene") == 0);
+    SECTION("by geometry") {
+        root->asGroup()->addChild(nodes::box(osg::Vec3(0, 0, 50)));
+        osgTSS::writeScene(*root, file);
+        CHECK(heard.times("has 24 triangles, and the graph 36") == 1);
+    }
+    SECTION("by a further parent of a joint") {
+        const osg::ref_ptr<osg::MatrixTransform> beside =
+            new osg::MatrixTransform(osg::Matrix::translate(0, 9, 0));
+        beside->addChild(find<osgTSS::JointTransform>(*root, "Hinge"));
+        root->asGroup()->addChild(beside);
+        osgTSS::writeScene(*root, file);
+        CHECK(heard.times("joint /Rig/Hinge is there over several parents") == 1);
+        const std::string other = (files::scratch() / "other.osgb").string();
+        REQUIRE(osgDB::writeNodeFile(*root, other));
+        Playback().frames(*files::load(other), 0, 3);
+        CHECK(heard.times("joint /Rig/Hinge is there over several parents") == 2);
     }
 }
 

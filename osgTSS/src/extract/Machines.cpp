@@ -2,12 +2,14 @@
 
 #include "FindQuietly.h"
 #include "TableFit.h"
+#include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/draw/BodyNodes.h"
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osgTSS/JointTransform>
 
 #include <algorithm>
+#include <set>
 
 namespace osgTSS {
 
@@ -134,6 +136,32 @@ std::vector<PairPlace> Machines::placesOf(int index, std::string& why) {
         if (!places.empty() || chains.empty()) break;
     }
     return places;
+}
+
+std::vector<std::string> Machines::unknown() {
+    std::vector<std::string> lines;
+    std::set<const osg::Node*> shared;
+    for (std::size_t p = 0; p < _model.pairs.size(); ++p) {
+        const tss::Pair& pair = _model.pairs[p];
+        if (!pair.table && !pair.proof) continue;
+        bool there = true;
+        for (int joint : pair.joints) {
+            const std::string& path = _model.joints[joint].path;
+            const auto nodes = _tagged.find(path);
+            there = there && nodes != _tagged.end();
+            if (!there) break;
+            osg::Node& node = *nodes->second.front();
+            if (pathsFrom(_root, node).size() > 1 && shared.insert(&node).second)
+                lines.push_back(
+                    "joint " + path +
+                    " is there over several parents: it is kept apart as at the first of them, and "
+                    "what the others meet is not looked at");
+        }
+        std::string why;
+        if (there && placesOf(static_cast<int>(p), why).empty())
+            lines.push_back("pair " + pair.path + " is kept apart by what does not fit the graph: " + why);
+    }
+    return lines;
 }
 
 void Machines::tag(const PairPlace& place) const {

@@ -29,6 +29,10 @@ public:
     /// Names the joints and the bodies of a place by the model's paths.
     void tag(const PairPlace& place) const;
 
+    /// What of the graph the tables and proofs do not know, a line each: pairs whose joints are there but fit
+    /// nowhere, and joints that the graph shows several times.
+    std::vector<std::string> unknown();
+
 private:
     /// The graph as a visitor finds it.
     struct Extraction {

@@ -4,6 +4,7 @@
 #include "bake/model/SourceHash.h"
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/extract/FindQuietly.h"
+#include "osgTSS/src/extract/Machines.h"
 
 #include <osg/Notify>
 #include <osgTSS/ConstraintVisitor>
@@ -11,7 +12,7 @@
 #include <osgTSS/SceneFile>
 #include <osgTSS/ViewerCallback>
 
-#include <set>
+#include <map>
 
 namespace osgTSS {
 
@@ -29,27 +30,49 @@ osg::ref_ptr<osg::Group> createPlayingGraph(Scene& scene, const LoadOptions& opt
     return root;
 }
 
-osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
+namespace {
+
+std::size_t trianglesIn(const tss::SceneModel& model) {
+    std::size_t count = 0;
+    for (const tss::Body& body : model.bodies) count += body.mesh.triangles.size();
+    return count;
+}
+
+/// What has come or become other in a graph since its scene was installed, or stands around it: it is not
+/// written.
+void tellUnwritten(osg::Node& root, osg::Node& node, const tss::SceneModel& written) {
     ConstraintVisitor visitor;
-    std::set<Scene*> found;
+    const tss::SceneModel& found = findQuietly(root, visitor);
+    const auto tell = [](std::size_t known, std::size_t there, const char* what) {
+        if (there > known)
+            OSG_WARN << "osgTSS: the scene that is written has " << known << " " << what << ", and the graph "
+                     << there << ": expected its node alone, or install() of what all of it is baked to"
+                     << std::endl;
+    };
+    tell(written.joints.size(), found.joints.size(), "joints");
+    tell(trianglesIn(written), trianglesIn(found), "triangles");
+    for (const std::string& line : Machines(node, written).unknown())
+        OSG_WARN << "osgTSS: the scene is written as it was baked; " << line << std::endl;
+}
+
+} // namespace
+
+osg::ref_ptr<Scene> sceneOf(osg::Node& root) {
+    std::map<Scene*, osg::Node*> found;
     eachNode(root, [&](osg::Node& node) {
-        if (Scene* scene = Scene::on(node)) found.insert(scene);
+        if (Scene* scene = Scene::on(node)) found.emplace(scene, &node);
     });
     if (found.size() > 1)
         throw tss::InputError("the graph holds " + std::to_string(found.size()) +
                               " scenes: expected one a file; write the node of each by itself");
     if (found.empty()) {
+        ConstraintVisitor visitor;
         root.accept(visitor);
         return new Scene(std::make_shared<tss::SceneModel>(visitor.getModel()));
     }
-    // What has come since it was installed, or stands around it, is missing in the scene.
-    Scene& scene = **found.begin();
-    const std::size_t joints = findQuietly(root, visitor).joints.size(),
-                      known = scene.getModel().joints.size();
-    if (joints > known)
-        OSG_WARN << "osgTSS: the scene that is written has " << known << " joints, and the graph " << joints
-                 << ": expected its node alone, or install() of what all of it is baked to" << std::endl;
-    return &scene;
+    const auto& [scene, node] = *found.begin();
+    tellUnwritten(root, *node, scene->getModel());
+    return scene;
 }
 
 void writeScene(osg::Node& root, const std::string& file) {

@@ -66,22 +66,11 @@ struct LimitsCallback::Watch {
         });
     }
 
-    /// What was not made for this graph, pair by pair, of those whose joints are there.
+    /// What was not made for this graph.
     unsigned int tellUnfit(osg::Node& node) const {
-        const auto nodes = findJointNodes(node);
-        Machines machines(node, *model);
-        unsigned int told = 0;
-        for (std::size_t p = 0; p < model->pairs.size(); ++p) {
-            const tss::Pair& pair = model->pairs[p];
-            const bool there = std::ranges::all_of(
-                pair.joints, [&](int joint) { return nodes.contains(model->joints[joint].path); });
-            std::string why;
-            if ((!pair.table && !pair.proof) || !there || !machines.placesOf(int(p), why).empty()) continue;
-            OSG_WARN << "osgTSS: pair " << pair.path
-                     << " is kept apart by what does not fit the graph: " << why << std::endl;
-            ++told;
-        }
-        return told;
+        const std::vector<std::string> lines = Machines(node, *model).unknown();
+        for (const std::string& line : lines) OSG_WARN << "osgTSS: " << line << std::endl;
+        return static_cast<unsigned int>(lines.size());
     }
 
     /// Each joint is told of once, and then not looked at any more.
