@@ -107,6 +107,12 @@ TEST_CASE("what holds a cube is looked into, and what is drawn before the eye is
         const osg::ref_ptr<osg::Group> root = yard(before);
         const Heard heard;
         CHECK(extract(*root).pairs.empty());
+        CHECK(heard.times("it is no joint") == 0);
+        if (!before->asTransform()) continue;
+        before->setUserValue("osgTSS:dofs", std::string("rotZ:0:90"));
+        extract(*root);
+        // What a camera draws is looked for by nobody.
+        CHECK(heard.times("it is no joint, as it turns to the eye") == (name == "Hud" ? 0 : 1));
     }
 }
 

@@ -122,8 +122,12 @@ void ConstraintVisitor::apply(osg::Transform& node) {
 
 void ConstraintVisitor::applyTransform(osg::Transform& node) {
     // Turns to the eye, or is placed before it: no motion of a body.
-    if (dynamic_cast<osg::AutoTransform*>(&node) || node.getReferenceFrame() != osg::Transform::RELATIVE_RF)
+    if (dynamic_cast<osg::AutoTransform*>(&node) || node.getReferenceFrame() != osg::Transform::RELATIVE_RF) {
+        if (saysJoint(node) && _seen.insert(&node).second)
+            warn("it is no joint, as it turns to the eye or is placed before it: expected a transform with "
+                 "RELATIVE_RF that is no AutoTransform");
         return;
+    }
     std::string why;
     const bool still = hasFlag(node, "osgTSS:static"), moved = hasFlag(node, "osgTSS:moved");
     try {
