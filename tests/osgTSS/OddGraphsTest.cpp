@@ -7,6 +7,7 @@
 #include <osgDB/WriteFile>
 #include <osgTSS/Bake>
 #include <osgTSS/JointCallback>
+#include <osgText/Text>
 
 using namespace osgTSS;
 using namespace nodes;
@@ -87,6 +88,15 @@ TEST_CASE("what draws nothing solid is no body and costs nothing") {
         const osg::ref_ptr<Scene> scene = bake(*root, quick);
         install(*root, *scene);
         CHECK(reach(*root) == Approx(1.5));
+    }
+}
+
+TEST_CASE("text that turns to the eye is no body, and text that does not is one") {
+    for (const bool turns : {true, false}) {
+        const osg::ref_ptr<osgText::Text> label = new osgText::Text;
+        label->setText("label");
+        label->setAutoRotateToScreen(turns);
+        CHECK(extract(*yard(label)).pairs.size() == (turns ? 0 : 1));
     }
 }
 

@@ -27,6 +27,7 @@
 #include <osgTSS/ConstraintVisitor>
 #include <osgTSS/Convert>
 #include <osgTSS/Overlay>
+#include <osgText/TextBase>
 
 #include <algorithm>
 #include <sstream>
@@ -189,6 +190,8 @@ void ConstraintVisitor::traverseLevels(osg::LOD& node) {
 
 void ConstraintVisitor::apply(osg::Drawable& drawable) {
     if (!begin(drawable)) return;
+    const auto* text = dynamic_cast<const osgText::TextBase*>(&drawable);
+    if (text && text->getAutoRotateToScreen()) return; // as an osg::AutoTransform
     const PlaceInBody place = _place;
     enter(drawable, place);
     if (addSoft(drawable)) return;
