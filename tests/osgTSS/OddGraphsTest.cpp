@@ -100,6 +100,22 @@ TEST_CASE("text that turns to the eye is no body, and text that does not is one"
     }
 }
 
+TEST_CASE("what is paged in later is no body, and is told of where there are joints") {
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    paged->setName("Tile");
+    paged->addChild(odd::cubes()[0].second, 100, 1e9f);
+    paged->setRange(1, 0, 100);
+    paged->setFileName(1, "finer.osgb");
+    const osg::ref_ptr<osg::Group> root = yard(paged), still = new osg::Group;
+    still->addChild(paged);
+    const Heard heard;
+    extract(*still);
+    CHECK(heard.times("paged") == 0);
+    extract(*root);
+    CHECK(heard.times("what is paged in later is part of no body") == 1);
+    CHECK(heard.times("/Tile") == 1);
+}
+
 TEST_CASE("what holds a cube is looked into, and what is drawn before the eye is not") {
     for (const auto& [name, holder] : odd::holders()) {
         CAPTURE(name);

@@ -102,6 +102,10 @@ const tss::SceneModel& ConstraintVisitor::getModel() {
                    << "take long to bake: " << _turning
                    << "; limits=written takes the limits written in them, "
                    << "limits=NAME:rotZ:-24:18 gives others" << std::endl;
+    if (_pagings > 0 && !_model.joints.empty() && !_quiet)
+        OSG_WARN << "osgTSS: what is paged in later is part of no body, and tables do not know it: "
+                 << _paging << (_pagings > 1 ? " and " + std::to_string(_pagings - 1) + " more" : "")
+                 << "; expected what joints can reach in the graph when it is extracted" << std::endl;
     _soft->finish(_model, [&](const std::string& what) {
         if (!_quiet) OSG_WARN << "osgTSS: " << what << std::endl;
     });

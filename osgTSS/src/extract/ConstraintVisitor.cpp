@@ -22,6 +22,7 @@
 #include <osg/LOD>
 #include <osg/Material>
 #include <osg/Notify>
+#include <osg/PagedLOD>
 #include <osg/Projection>
 #include <osg/ValueObject>
 #include <osgTSS/ConstraintVisitor>
@@ -170,6 +171,8 @@ void ConstraintVisitor::apply(osg::Billboard&) {}
 /// Of the levels the finest, seen from nearest or covering the most pixels, and what is drawn together with
 /// it at some distance.
 void ConstraintVisitor::traverseLevels(osg::LOD& node) {
+    const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    if (paged && paged->getNumFileNames() > paged->getNumChildren() && _pagings++ == 0) _paging = pathText();
     const unsigned int levels = std::min(node.getNumChildren(), node.getNumRanges());
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
     unsigned int finest = 0;
