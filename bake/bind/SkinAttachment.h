@@ -44,16 +44,23 @@ struct SkinAttachment {
 /// The frame of each body, see SkinParameters::frames.
 std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& parameters);
 
+/// Which bones and muscles each vertex of a skin follows, and by how much (METHOD 6.3, 6.4): skinInfluences()
+/// finds the vertices that are certainly a bone's, claimedShares() the shares of all others. Shares that the
+/// parameters give are taken as they are; tethered vertices keep the rest of their shares at rest.
 SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& parameters);
 
-/// The influences on a skin (METHOD 6.3), one per frame and, where needed, one more that never moves: each
-/// vertex's distance from the bones of the frame (its muscles, if it has no bones), and the vertices that
-/// certainly belong to it, see SkinSides. A connected part of the skin that is far from every bone, or hidden
-/// from all of them, belongs to bones that are not given, unless it is a hollow such as a mouth. Such a part
-/// follows the one influence that it is attached to alone, if there is one; else the moving bone that it
-/// continues, as a hand does a forearm; a trunk on both sides of a row of vertebrae is divided among them;
-/// and others, as a trunk beside an arm, follow a bone that never moves. If there is no such bone the part
-/// stays at rest, unless it is the smaller end of one bone.
+/// The influences on a skin (METHOD 6.3), one per frame and, where needed, one more that never moves. Of
+/// each: every vertex's distance from the bones of the frame (its muscles, if it has no bones), and the
+/// vertices that certainly belong to it, see SkinSides.
+///
+/// A connected part of the skin that is far from every bone, or hidden from all of them, belongs to bones
+/// that are not given, unless it is a hollow such as a mouth. Where some bone never moves, the first of these
+/// that applies says what the part follows:
+///   1. a trunk on both sides of a row of vertebrae is divided among them;
+///   2. the one influence that it is attached to alone;
+///   3. the moving bone that it continues, as a hand continues a forearm;
+///   4. a bone that never moves, as a trunk beside an arm does.
+/// Where all bones move, the part stays at rest, unless it is the smaller end of one bone.
 std::vector<SkinInfluence> skinInfluences(const SkinAnatomy& anatomy, const SkinParameters& parameters,
                                           const std::vector<int>& frames);
 

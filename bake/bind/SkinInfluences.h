@@ -7,7 +7,8 @@ namespace tss {
 /// direction.
 inline constexpr double aheadCosine = 0.7;
 
-/// The influence of a frame, and how the frame moves.
+/// What a frame, one or several bones that move as one, has to do with a skin, and how it moves in the swings
+/// of the joints. Lengths in scene units, at rest.
 struct FrameInfluence {
     SkinInfluence influence;
     std::vector<std::size_t> bodies; ///< its bones, or its muscles if it has none

@@ -22,10 +22,11 @@ struct ShareOptions {
     std::vector<std::vector<DualPose>> motions; ///< since rest, each of the first influences; others rest
     std::span<const double> tether;             ///< #V in [0,1], see SkinParameters; empty: 0
     bool keepSigns = false;                     ///< see PoseBlend
-    int maxRounds = 16;      ///< most solves, each after triangles that would fold were made stiffer
-    double stiffening = 1.2; ///< factor of each round; small, as slow stiffening disturbs little around
-    /// The rounds end before an influence's share at its end, its seed farthest from all others, falls below
-    /// this.
+    int maxRounds = 16;      ///< at most so many further solves; before each, triangles that a motion would
+                             ///< fold are made stiffer
+    double stiffening = 1.2; ///< by this factor; a small one changes little of the skin around
+    /// In [0, 1]. The end of an influence is its seed that is farthest from the seeds of all others. A round
+    /// that would bring the influence's share there below this is dropped, and is the last one.
     double leastAtEnds = 0;
 };
 
@@ -42,9 +43,10 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
 void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
                 std::span<const double> firmness, std::vector<std::vector<double>>& values);
 
-/// What a vertex of a shell, a connected component of the skin without a seed, is bound to.
+/// What a vertex of a shell is bound to: an influence, or a point of other skin. A shell is a connected
+/// component of the skin without a seed, such as a shoe.
 struct ShellVertex {
-    int round = -1;              ///< in which its shell is bound; -1: it is not of a shell
+    int round = -1;              ///< in which its shell is bound, from 0; -1: it is not of a shell
     std::uint32_t influence = 0; ///< what it is bound to if `weights` are 0
     Tri skin = Tri::Zero();      ///< else: corners of the triangle of the skin, bound in an earlier round
     Vec3 weights = Vec3::Zero(); ///< barycentric, in that triangle

@@ -4,8 +4,8 @@
 
 namespace tss {
 
-/// What bake() would refuse of the pairs and skins that are wanted, each with the prim that it belongs to;
-/// empty: nothing that shows without making spheres. Takes no longer than reading the scene.
+/// Why bake() would refuse pairs and skins of the request, as far as that shows without making spheres: one
+/// error each, with the path of its prim; empty: no reason was found. Takes no longer than reading the scene.
 std::vector<InputError> refusedByBake(const SceneModel& scene, const BakeRequest& request = {});
 
 /// The same of muscles that lie under no skin: bake has nothing to do with them, but they do not play.

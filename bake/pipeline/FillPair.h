@@ -40,9 +40,9 @@ SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 
-/// fillPair() for up to three DOFs, with spheres over all surface that comes within the margin, scene units.
-/// Where spheres of what may touch have shown that nothing does, these show how far apart the bodies stay, up
-/// to the margin.
+/// fillPair() for up to three DOFs, but with spheres over all surface that comes within `margin`, scene
+/// units, of the other body. For a pair that the spheres of fillPair() have shown never to touch: these show
+/// how far apart the bodies stay, at most the margin.
 PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,
                        const BakeOptions& options, double margin, const Progress& progress = {});
 

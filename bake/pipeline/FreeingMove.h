@@ -59,12 +59,12 @@ struct FreeingMoves {
     std::optional<ApartElsewhere> apart;        ///< where they do
 };
 
-/// Small moves for surfaces that overlap where the joint rests: first the one that frees most, of such the
-/// smallest; none where they do not overlap, or where no shift of up to a tenth of the smaller body gives the
-/// joint any room. A pose at which the bodies meet elsewhere than where they overlap at rest (teeth that
-/// bite, METHOD 2.4) is a stop of the joint and need not be freed; all others are, where that is found. They
-/// are found by trying, with the meshes alone: small, not proven to be the smallest. The same for any number
-/// of threads, if complete.
+/// Small moves of B that give a joint room whose surfaces overlap where it rests. They are sorted by how many
+/// poses they free, and among equals by how little they move B. There are none where the surfaces do not
+/// overlap at rest, or where no shift of up to a tenth of the smaller body helps. A pose at which the bodies
+/// meet elsewhere than where they overlap at rest (teeth that bite, METHOD 2.4) is a stop of the joint: it
+/// counts as free. Moves are found by trial on the meshes: they are small, but not proven to be the smallest.
+/// The same for any number of threads, if complete.
 FreeingMoves freeingMoves(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                           const FreeingOptions& options = {});
 

@@ -24,8 +24,8 @@ private:
     std::vector<Shape> shapes_;
 };
 
-/// The muscles and bones below a skin. Activations and poses are one each, the latter motions since rest in
-/// the skin's frame, or none, where nothing moves.
+/// The muscles and bones below a skin, wherever they have moved. activations: one per muscle or bone. poses:
+/// the motion of each since rest, in the skin's frame; empty: none has moved.
 class BelowSkin {
 public:
     /// muscles: skinMuscles().

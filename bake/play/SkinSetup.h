@@ -27,8 +27,9 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
 SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
                               std::vector<std::string>* farTurns = nullptr);
 
-/// Between which values a joint value goes where it is looked at by itself. Joints of no pair may be
-/// unlimited: a turn goes half way round then, and a slide stays at rest.
+/// The lowest and the highest value that a DOF takes when it is moved alone to find out what it does: its
+/// limits. Joints that are in no pair may have none: a turn then goes half way round from rest to either
+/// side, and a slide stays at rest. Radians or scene units.
 std::array<double, 2> swingEnds(const Dof& dof);
 
 /// All of it: the rig for SkinResponse. Without a table the skin is carried by what is below it and not kept

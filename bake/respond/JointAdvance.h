@@ -3,13 +3,15 @@
 
 namespace tss {
 
-/// Conservative advancement (METHOD 5.2): moves q along q + t step, t up to 1, as far as every near pair
-/// provably stays above its threshold. Each sub-step, at most 60, is the larger of the times that a bound on
-/// the gap's rate and one on its second derivative allow. Thresholds rise with the gaps up to the contact
-/// offset. Every pose passed is free if the near list is complete for this step. Gaps of near pairs must be
-/// those at q. Returns t at the end; q is exactly q + step where that is 1. Stops at a pair that is closing
-/// and within a twentieth of its contact offset of its threshold; groups of pairs that stopped it are marked
-/// in ws.held.
+/// Conservative advancement (METHOD 5.2): moves q along q + t step, t from 0 up to 1, as far as every near
+/// pair provably stays above its threshold. ws: the near pairs, with their gaps at q; if they are complete
+/// for this step, every pose passed is free.
+///
+/// Goes in at most 60 sub-steps. For each pair a bound of the gap's rate allows one time and a bound of its
+/// second derivative another; the larger counts, and the smallest of all pairs is the sub-step. Thresholds
+/// rise with the gaps, up to the contact offset. Stops at a pair that is closing and whose gap is less than a
+/// twentieth of its contact offset above its threshold; the groups of such pairs are marked in ws.held.
+/// Returns t at the end; q is exactly q + step where that is 1.
 double advance(const JointModel& model, const DofValues& step, DofValues& q, ResponseBuffers& ws);
 
 /// The twist of a group's body while its joint makes the whole step in unit time, in A's frame.

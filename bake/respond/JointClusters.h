@@ -4,15 +4,15 @@
 namespace tss {
 
 /// Appends to the near list the pairs of clustered groups whose gap can fall to their threshold on the
-/// straight way from q to q + step, unless they are listed already: with their gap at q, the threshold that
-/// cull() gives, and no gradient. The cost is proportional to how many are near. All other pairs of these
-/// groups keep a gap above their contact offset all the way.
+/// straight way from q to q + step, unless they are listed already. Each gets its gap at q and the threshold
+/// that cull() gives, but no gradient. All other pairs of these groups keep a gap above their contact offset
+/// all the way. The cost is proportional to how many pairs are near.
 ///
-/// On the way a gap falls by no more than the sum of the speed bounds, and by no more than its rate at q and
-/// half the bound of its acceleration (METHOD 5.1). First the whole group is tested by these bounds and what
-/// the cache knows of its last pose; then the table is searched within the larger bound of all pairs; then
-/// each pair found is tested by its own bounds. Returns false where it stopped, the list incomplete, because
-/// more than `most` pairs are near or far more had to be tested.
+/// Two bounds say how far a gap can fall on the way (METHOD 5.1): the sum of the speed bounds, and its rate
+/// at q plus half the bound of its acceleration. They are used three times: for a whole group, with what the
+/// cache knows of its last pose; for a search of its table, with bounds that hold for all its pairs; and for
+/// each pair that is found, with its own. Returns false, with the list incomplete, where more than `most`
+/// pairs are near or far more than that had to be tested.
 bool listOnStep(const JointModel& model, const DofValues& q, const DofValues& step, ResponseBuffers& ws,
                 std::size_t most = ~std::size_t(0));
 

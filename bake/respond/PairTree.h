@@ -18,14 +18,15 @@ public:
 
     PairTree(const Table& table, KernelTarget target);
 
-    /// Numbers of all tests whose gap is at most the margin at a pose, and some whose gap is larger by what
-    /// floats may round or by how test's rest gaps differ, always in the same order. Stops once it has found
-    /// more than `enough`. Returns how many. out: room for all tests.
+    /// Writes the indices of all tests whose gap at a pose (B to A) is at most `margin`, scene units, to
+    /// `out`, which has room for all tests; always in the same order. Some with a larger gap are among them:
+    /// by what floats may round, or because tests have different rest gaps. Stops once it has found more than
+    /// `enough`. Returns how many were written.
     std::uint32_t testsWithin(const Pose& pose, double margin, std::uint32_t enough,
                               std::uint32_t* out) const;
 
-    /// Eight spheres of a body, or of eight blocks below the spheres that bound them. What is none is far
-    /// smaller than nothing.
+    /// Eight spheres of a body, or the bounding spheres of eight blocks of the level below. An unused place
+    /// has a radius of -1e18, so that it touches nothing.
     struct alignas(32) Block {
         float x[fan], y[fan], z[fan], r[fan];
     };
@@ -36,7 +37,8 @@ public:
         std::vector<std::vector<Block>> levels;
         Block root; ///< whose first sphere bounds the first block
     };
-    /// Of test pairs of two leaves: number of the test of sphere b and sphere a at fan * b + a, or -1.
+    /// The tests between the spheres of two leaves: at fan * b + a the index of the test of A's sphere a with
+    /// B's sphere b, both numbered within their leaves; -1 where the two are no test.
     using LeafTests = std::array<std::int32_t, fan * fan>;
 
     const Side& a() const { return a_; }
@@ -61,7 +63,7 @@ private:
                    std::span<const std::uint32_t> orderB);
 
     Side a_, b_;
-    std::vector<std::uint32_t> leafPairs_; ///< by leaf of A, then of B: place among `tests_` and 1, or 0
+    std::vector<std::uint32_t> leafPairs_; ///< by leaf of A, then of B: 1 + index in `tests_`; 0: no test
     std::vector<LeafTests> tests_;
     double mostRest_ = 0; ///< of the tests' rest gaps
     Kernel ask_ = nullptr;

@@ -11,7 +11,8 @@
 
 namespace tss {
 
-/// x, y, z and mostly 0. "Run-time lengths" are floats relative to the skin's centre, in units of its size.
+/// A place or a displacement: x, y, z, and 0 unless a fourth value is named. "Run-time lengths" are floats in
+/// units of the skin's size (SkinRig::size), places counted from its centre.
 using Move = Eigen::Vector4f;
 
 /// A muscle or a bone at run time, run-time lengths.
@@ -75,8 +76,8 @@ struct SkinRow {
     std::uint32_t first = 0, last = 0; ///< start triangles of the query: range in SkinRig::starts
     bool insideAtRest = false; ///< the vertex is on the wrong side of the surface at rest already, and is
                                ///< only kept from getting deeper
-    bool fromOutside = false; ///< SkinOnBody of a bone: that lies before the outer side of the skin at rest,
-                              ///< as teeth do before the lining of a lip
+    bool fromOutside = false;  ///< SkinOnBody of a bone: that lies before the outer side of the skin at rest,
+                               ///< as teeth do before the lining of a lip
     bool flipped = false; ///< the surface overlaps itself, and its side next to the vertex is wound the wrong
                           ///< way round: its normal counts negative
     Tri corners{0, 0, 0}; ///< anchor, the point of the surface that the vertex faces at rest: triangle ...

@@ -40,8 +40,8 @@ struct PairDistanceBounds {
     }
 
 private:
-    /// Of each of the lengths that the squares are made of an error of `rounding`; half turns of levers among
-    /// them.
+    /// The error of a squared length, scene units squared, where each length that it is made of, a lever
+    /// after half a turn among them, is off by at most `rounding`.
     double roundingOfSquares(double limit, double rounding) const {
         return 16 * rounding * (distance + move + limit + rounding);
     }

@@ -37,13 +37,15 @@ double skinThickness(const TriangleMesh& skin);
 
 /// Which skin spheres some muscle sphere can reach (METHOD 6.2): every pair whose gap gets to `travel` or
 /// less somewhere in the activation range of its muscle is a test of the table. Each muscle's own range is
-/// covered without gaps, but not all bones and muscles together: the table is not certified. Spheres move as
-/// their MuscleTrack, linear between its nodes, and each stretch is tested as the capsule it sweeps; the run
-/// time moves them on the same track. Bones swing one joint value at a time, the others at rest; a vertex
-/// moves with the blend of their motions by its shares, linear between the stations but for a tenth of each
-/// step. One skin sphere per vertex; rows of skin out of reach do not exist. restGaps: the negative gap of a
-/// pair that overlaps at activation 0 (2.4). The same table for any number of threads. Throws InputError
-/// where progress stops it.
+/// covered without gaps, but not all bones and muscles together: the table is not certified. One skin sphere
+/// per vertex; skin out of reach has no rows.
+///   Muscles: spheres move as their MuscleTrack, linear between its nodes, as at run time; each stretch is
+///   tested as the capsule that the sphere sweeps.
+///   Bones: they swing one joint value at a time, the others at rest. A vertex moves with the blend of their
+///   motions by its shares; between two stations of a swing it may be off the straight line by a tenth of
+///   their distance.
+/// The table's restGaps are the negative gaps of pairs that overlap at activation 0 (METHOD 2.4). The same
+/// table for any number of threads. Throws InputError where progress stops it.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,
                      const SkinSearchOptions& options, const Progress& progress = {});
 
