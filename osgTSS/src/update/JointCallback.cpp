@@ -243,7 +243,7 @@ void JointCallback::Binding::tellBeyond() {
     for (int index : (*plan)->joints)
         for (const tss::Dof& dof : model->joints[index].dofs) {
             const double value = asked[next++];
-            if (value >= dof.lower && value <= dof.upper) continue;
+            if ((value >= dof.lower && value <= dof.upper) || bound.at(index).told) continue;
             if (const auto beyond = beyondLimits(dof, value)) tell(index, *beyond);
         }
 }
