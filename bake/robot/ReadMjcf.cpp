@@ -330,11 +330,9 @@ private:
         }
         for (auto* e = contact.FirstChildElement("exclude"); e; e = e->NextSiblingElement("exclude")) {
             const std::string a = textOf(*e, "body1"), b = textOf(*e, "body2");
-            for (const std::string& name : {a, b})
-                if (!names_.contains(name))
-                    throw InputError(placeOf(file_, *e),
-                                     "expected the name of a body, found \"" + name + "\"");
-            if (tested.contains({a, b})) // by MuJoCo all the same
+            if (!names_.contains(a) || !names_.contains(b))
+                leaveOut("excludes of bodies that are not there", a + " and " + b);
+            else if (tested.contains({a, b})) // by MuJoCo all the same
                 leaveOut("excludes of bodies whose geoms a pair names", a + " and " + b);
             else
                 robot_.unpaired.emplace_back(a, b);
@@ -382,7 +380,11 @@ Robot readMjcf(const std::string& text, const std::string& file, const ReadOther
     robot.file = file;
     robot.name = textOf(model, "model", "model");
     MjcfReader(model, file, robot);
-    if (robot.links.empty()) throw InputError(Where{file}, "expected at least one <body>, found none");
+    if (robot.links.empty()) {
+        std::string leftOut;
+        for (const std::string& note : robot.notes) leftOut += "; " + note;
+        throw InputError(Where{file}, "expected at least one <body>, found none" + leftOut);
+    }
     settleRobot(robot);
     return robot;
 }

@@ -176,9 +176,10 @@ TEST_CASE("bodies without a name take none that another has") {
                            "<joint/></body></body></body>")));
     CHECK(bodyCalled(robot.scene, "body1").named);
     CHECK_FALSE(bodyCalled(robot.scene, "body1_").named);
-    CHECK_FALSE(refused(modelOf(world("<body>" + ball + "</body>") +
-                                "<contact><exclude body1='body0' body2='world'/></contact>"))
-                    .empty()); // it is no name of the file's
+    CHECK(hasNote(made(modelOf(world("<body>" + ball + "</body>") +
+                               "<contact><exclude body1='body0' body2='world'/></contact>"))
+                      .notes,
+                  "excludes of bodies that are not there: body0 and world"));
 }
 
 TEST_CASE("bodies that are tied to nothing stand where they do in the file") {
@@ -329,8 +330,19 @@ TEST_CASE(
     CHECK(robot.scene.pairs.size() == 2);
     CHECK(jointCalled(robot.scene, "j").dofs[0].lower == Approx(-5 * degree));
     CHECK(hasNote(robot.notes, "from their ref on: j"));
-    CHECK(refused(modelOf(world("<body/>") + "<contact><exclude body1='x' body2='y'/></contact>"))
-              .find("found \"x\"") != std::string::npos);
+}
+
+TEST_CASE(
+    "an exclude of bodies that are made is left out by name, and so are these where there are no others") {
+    const std::string rope = "<composite type='cable' count='3'/>";
+    const RobotScene robot =
+        made(modelOf(world(rope + "<body name='a'>" + ball + "<joint range='0 1'/></body><body name='b'>" +
+                           ball + "</body>") +
+                     "<contact><exclude body1='B_last' body2='a'/><exclude body1='a' body2=''/></contact>"));
+    CHECK(hasNote(robot.notes, "left out: excludes of bodies that are not there: B_last and a, a and "));
+    CHECK(robot.scene.pairs.size() == 1);
+    CHECK(refused(modelOf(world(rope))).find("found none; left out: bodies made by composite") !=
+          std::string::npos);
 }
 
 TEST_CASE("included files stand where they are named, once each") {
