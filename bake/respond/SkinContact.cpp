@@ -114,6 +114,14 @@ Vec3f motionSinceRest(const SkinRig& rig, const SkinScene& scene, const SkinRow&
     return anchorOffset(rig, scene, row) - row.atRest;
 }
 
+/// How far a point inside of a muscle can be from a point of its surface that is the nearest: the radius of
+/// the ball inside that touches there.
+float roomAt(const SkinBody& body, const SurfacePoint& at) {
+    float room = 0;
+    for (int k = 0; k < 3; ++k) room += at.weights[k] * body.room[body.triangles[at.triangle][k]];
+    return room;
+}
+
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     plane.vertices = 1;
@@ -148,16 +156,19 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     // Skin inside a muscle may be nearest to its far side: the side faced at rest counts too.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    if (smooth.dot(away) < 0) {
-        trust *= entryTrust(away.norm(), motion.norm() - row.offset);
+    const Tri& t = body.triangles[hit.triangle];
+    const Move* at = scene.surface.data() + body.first;
+    // Inside a bone skin is pushed along the smooth normal only, not sideways out of a thin edge.
+    float side = smooth.dot(away) < 0 ? 0.0f : 1.0f;
+    if (!body.bone())
+        side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
+    if (side < 1 || smooth.dot(away) < 0) {
+        float most = motion.norm() - row.offset;
+        if (!body.bone()) most = std::min(most, std::max(roomAt(body, hit), -row.offset));
+        trust *= entryTrust(away.norm(), most);
         if (body.bone()) trust *= 1 - smoothStep(4 * away.norm() / reach - 3);
     }
     if (!(trust > 0)) return plane;
-    const Tri& t = body.triangles[hit.triangle];
-    const Move* at = scene.surface.data() + body.first;
-    float side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
-    // Inside a bone skin is pushed along the smooth normal only, not sideways out of a thin edge.
-    if (body.bone()) side = smooth.dot(away) < 0 ? 0.0f : 1.0f;
     if (row.flipped) {
         smooth = -smooth;
         side = -side;

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
+#include "bake/motion/MuscleMedial.h"
 #include "bake/respond/SkinRows.h"
 #include "bake/respond/SkinWalk.h"
 
@@ -154,7 +155,11 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, i
         for (const Vec3& n : vertexNormals(mesh)) body.normals.push_back(toMove(n));
         body.strain.push_back(body.strainOf(body.places.data() + body.places.size() - body.count));
     }
-    if (deformer.rigid()) {
+    if (!deformer.rigid()) {
+        const TriangleMesh& rest = muscle.surface;
+        for (const Vec3& o : medialOffsets(rest, ClosestPointQuery(rest), vertexNormals(rest)))
+            body.room.push_back(static_cast<float>(o.norm() / rig.size));
+    } else {
         body.mesh = std::make_shared<const TriangleMesh>(meshOf(body.rest, body.triangles));
         body.locator = std::make_shared<const ClosestPointQuery>(*body.mesh);
     }

@@ -24,6 +24,7 @@ struct SkinBody {
     std::vector<Move> rest;                   ///< #count vertices at activation 0, in the skin's frame
     std::vector<Move> places, normals;        ///< #nodes blocks of #count: vertices and unit normals
     std::vector<float> strain;                ///< #nodes: strainOf() there
+    std::vector<float> room; ///< of a muscle, #count: radius of the ball inside that touches it there at rest
     std::vector<std::uint32_t> blocks;        ///< blocks of skin vertices that it displaces
     int frame = -1;                           ///< see SkinParameters::frames
     int insertion = -1;                       ///< see SkinParameters::insertions
