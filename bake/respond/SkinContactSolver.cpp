@@ -35,7 +35,7 @@ void eachVertex(const SkinRow& row, const What& what) {
 } // namespace
 
 SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
-    : rig_(rig), clock_(clock), pushes_(rig.foundation), planeOf_(rig.rows.size(), 0),
+    : rig_(rig), clock_(clock), pushes_(rig.foundation), turnLimit_(rig), planeOf_(rig.rows.size(), 0),
       satisfiedOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0),
       visited_(rig.rows.size(), 0) {
     std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
@@ -250,8 +250,15 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         if (round < mostRounds && (!violated_.empty() || (lack > settled && stalled < 2))) continue;
         // Where bones press from two sides the last result may be worse than no push: then the best one
         // counts.
-        return diverged || now > deepest ? apply(scene, best_) : pushing;
+        return limited(scene, diverged || now > deepest ? apply(scene, best_) : pushing);
     }
+}
+
+/// The result: what contacts have displaced, but for what they would turn over.
+std::size_t SkinContactSolver::limited(SkinScene& scene, std::size_t pushing) {
+    const SkinClock::Scope scope(clock_, SkinPart::Pushes);
+    if (turnLimit_.limit(scene, pushes_, pushed_)) findDisplaced(scene);
+    return pushing;
 }
 
 /// Displaces the carried skin by the pushes of these planes. Returns how many push.

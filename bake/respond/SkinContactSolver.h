@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/respond/SkinCosts.h"
 #include "bake/respond/SkinPushes.h"
+#include "bake/respond/SkinTurnLimit.h"
 
 namespace tss {
 
@@ -51,11 +52,13 @@ private:
     std::uint64_t selectionKey(const SkinRow& row, const SkinPlane& plane) const;
     void addDeepest();
     std::size_t apply(SkinScene& scene, std::span<const SkinPlane> planes);
+    std::size_t limited(SkinScene& scene, std::size_t pushing);
     float deepestViolation() const;
 
     const SkinRig& rig_;
     SkinClock& clock_;
     SkinPushes pushes_;
+    SkinTurnLimit turnLimit_;
     std::vector<SkinPlane> planes_;
     std::vector<SkinPlane> applied_,
         best_;                        ///< planes_ when last applied, and when least was violated after that

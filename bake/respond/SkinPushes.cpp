@@ -311,15 +311,24 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
         }
     }
     std::sort(touched_.begin(), touched_.end());
-    for (const std::uint32_t n : touched_) {
+    moved_.swap(touched_);
+    touched_.clear();
+    displace(places, blocks);
+    return pushing;
+}
+
+void SkinPushes::scale(std::span<const float> factors) {
+    for (const std::uint32_t n : moved_) nodes_[n] *= factors[n];
+}
+
+void SkinPushes::displace(std::span<Move> places, std::span<char> blocks) const {
+    for (const std::uint32_t n : moved_) {
         const Move move = nodes_[n];
         for (const auto& [vertex, weight] : foundation_.vertices[n]) {
             places[vertex] += weight * move;
             blocks[vertex / SkinRig::block] = 1;
         }
     }
-    touched_.clear();
-    return pushing;
 }
 
 } // namespace tss

@@ -26,6 +26,12 @@ public:
     /// how many planes have a push.
     std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places, std::span<char> blocks);
 
+    /// Multiplies the displacement of each node that apply() has found by its factor.
+    void scale(std::span<const float> factors);
+
+    /// Adds the displacements of the nodes to #touched positions, and marks their blocks.
+    void displace(std::span<Move> places, std::span<char> blocks) const;
+
 private:
     using Four = Eigen::Array4f;
     static constexpr std::uint32_t none = ~0u;
@@ -86,7 +92,8 @@ private:
     std::uint32_t round_ = 0;
     std::vector<float> sums_;
     std::vector<char> summed_;
-    std::vector<Move> nodes_; ///< displacements
+    std::vector<Move> nodes_;          ///< displacements
+    std::vector<std::uint32_t> moved_; ///< nodes that apply() has displaced
 };
 
 } // namespace tss

@@ -1,0 +1,37 @@
+#pragma once
+#include "bake/respond/SkinPushes.h"
+
+namespace tss {
+
+/// Keeps contacts from turning triangles of the skin over: where pushes would, those around are made smaller
+/// until they do not. What is turned over without them is left as it is. Continuous in the pushes, and
+/// without history.
+class SkinTurnLimit {
+public:
+    /// Keeps a reference to the rig.
+    explicit SkinTurnLimit(const SkinRig& rig);
+
+    /// Limits the displacements that pushes have just applied to the skin of a scene. blocks: those that they
+    /// may have displaced. Returns whether any became smaller.
+    bool limit(SkinScene& scene, SkinPushes& pushes, std::span<char> blocks);
+
+private:
+    void findTriangles(const SkinScene& scene, std::span<const char> blocks);
+    bool findFactors(const SkinScene& scene);
+
+    /// A triangle beside displaced skin that is not turned over as the skin is carried, seen along the normal
+    /// of one of its corners.
+    struct Beside {
+        std::uint32_t triangle = 0;
+        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< of the skin there
+        float area = 0;                                   ///< as carried, seen along the normal
+    };
+    const SkinRig& rig_;
+    Lists<std::uint32_t> blockTriangles_; ///< per block: triangles with a corner in it
+    std::vector<std::uint32_t> visited_;  ///< per triangle: the last pass over blocks that came to it
+    std::uint32_t pass_ = 0;
+    std::vector<Beside> beside_;
+    std::vector<float> factors_; ///< per node: of its displacement
+};
+
+} // namespace tss
