@@ -4,6 +4,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/bind/SkinNormals.h"
 #include "bake/geometry/MeshQuery.h"
+#include "bake/respond/SkinSpans.h"
 
 #include <algorithm>
 #include <array>
@@ -258,6 +259,7 @@ SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& p) {
                 attachment.bindings[m][v] = anatomy.locators[m].nearest(anatomy.skin.vertices[v], infinity);
         });
     }
+    if (p.shares.empty()) followSpans(anatomy, p, attachment);
     const auto join = [&](auto& lists) {
         for (auto& list : lists)
             for (std::size_t v = 0; v < list.size(); ++v) list[v] = list[anatomy.first[v]];

@@ -339,6 +339,32 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     return shares;
 }
 
+void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,
+                  std::vector<std::vector<double>>& shares) {
+    const auto rows = static_cast<Eigen::Index>(graph.vertices());
+    Eigen::VectorXd mass(rows);
+    for (Eigen::Index v = 0; v < rows; ++v) // a vertex of no triangle keeps its own
+        mass[v] = graph.area[v] > 0 ? graph.area[v] / (reach * reach) : 1;
+    const std::vector<std::vector<double>> before = shares;
+    std::vector<double> stiffness(skin.triangles.size(), 1), beyond;
+    Eigen::SimplicialLDLT<SparseMatrix> solver;
+    for (int round = 0; round < options.maxRounds && stiffenFolded(skin, shares, options, stiffness);
+         ++round) {
+        beyond = stiffness;
+        for (double& b : beyond) b -= 1;
+        SparseMatrix system = skinLaplacian(skin, beyond);
+        for (Eigen::Index v = 0; v < rows; ++v) system.coeffRef(v, v) += mass[v];
+        if (round == 0) solver.analyzePattern(system);
+        solver.factorize(system);
+        for (std::size_t h = 0; h < shares.size(); ++h) {
+            const Eigen::Map<const Eigen::VectorXd> target(before[h].data(), rows);
+            const Eigen::VectorXd solved = solver.solve(mass.cwiseProduct(target));
+            for (Eigen::Index v = 0; v < rows; ++v)
+                shares[h][static_cast<std::size_t>(v)] = std::clamp(solved[v], 0.0, 1.0);
+        }
+    }
+}
+
 void spreadOver(const TriangleMesh& skin, const SkinGraph& graph, double reach,
                 std::span<const double> firmness, std::vector<std::vector<double>>& values) {
     const auto rows = static_cast<Eigen::Index>(graph.vertices());
