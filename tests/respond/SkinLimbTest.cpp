@@ -1,10 +1,15 @@
-#include "SkinShapes.h"
+#include "SkinMeasure.h"
 
+#include "bake/motion/MuscleSpan.h"
+#include "bake/respond/MuscleShares.h"
 #include "bake/respond/SkinFollowMeasure.h"
+#include "bake/respond/SkinMoves.h"
 #include "bake/respond/SkinResponse.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iostream>
+#include <numeric>
 
 using namespace tss;
 using skins::boneOf;
@@ -50,7 +55,103 @@ double areaOf(std::span<const Vec3> skin, int ring) {
     return sum.norm();
 }
 
+/// A limb with a flexor and an extensor between its two bones, each overlapping a muscle beside it, and none
+/// of it prepared.
+struct FleshyLimb {
+    TriangleMesh skin = round(0.12, -1.1, 1.1, 90);
+    std::vector<std::shared_ptr<const MuscleDeformer>> bodies{boneOf(round(0.03, -1.05, -0.03, 30)),
+                                                              boneOf(round(0.03, 0.03, 1.05, 30))};
+    SkinParameters parameters;
+    SkinTable table;
+
+    static Pose bent(double degrees) { return Pose(Eigen::AngleAxisd(degrees * degree, Vec3::UnitY())); }
+
+    std::vector<Pose> posesAt(double degrees) const {
+        std::vector<Pose> poses(bodies.size(), Pose::Identity());
+        poses[1] = bent(degrees);
+        return poses;
+    }
+
+    explicit FleshyLimb(double limit) {
+        std::vector<DualPose> far;
+        for (int k = 1; k <= 4; ++k) far.emplace_back(bent(limit * k / 4));
+        parameters.frames = {0, 1};
+        parameters.insertions = {-1, -1};
+        for (const double side : {-0.06, 0.06})
+            for (const double beside : {-0.02, 0.02}) {
+                Muscle muscle;
+                muscle.surface = round(0.04, -0.9, beside < 0 ? 0.2 : 0.3, 60);
+                for (Vec3& v : muscle.surface.vertices) v += Vec3(0, beside, side);
+                muscle.fibre = {{-0.9, beside, side}, {0.2, beside, side}};
+                muscle.maxContraction = 0.2;
+                muscle.spans = true;
+                muscle.insertionShares = insertionShares(muscle.surface, bodies[0]->muscle().surface,
+                                                         bodies[1]->muscle().surface, far);
+                bodies.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
+                parameters.frames.push_back(0);
+                parameters.insertions.push_back(1);
+            }
+        BoneSwing swing;
+        for (int k = 1; k <= 16; ++k) swing.push_back(posesAt(limit * k / 16));
+        parameters.swings = {swing};
+        std::vector<SkinSearchMuscle> searched;
+        for (const auto& body : bodies)
+            searched.push_back({body.get(), skins::insetSpheres(body->muscle().surface, 0.02)});
+        SkinSearchOptions options;
+        options.travel = 0.02;
+        options.swings = parameters.swings;
+        options.insertions = parameters.insertions;
+        SkinMoves moves = skinMoves(skin, bodies, parameters);
+        options.stray = std::move(moves.stray);
+        options.shares = std::move(moves.shares);
+        table = searchSkin(skin, searched, options);
+    }
+
+    /// The skin bent, with its contacts or without.
+    SkinResponse at(double degrees, bool contacts) const {
+        const auto rig = std::make_shared<SkinRig>(*makeSkinRig(skin, bodies, table, parameters));
+        if (!contacts) rig->rows.clear();
+        SkinResponse response(rig);
+        response.update(std::vector<double>(bodies.size(), 0), posesAt(degrees));
+        return response;
+    }
+
+    /// How far each vertex of the muscles is out of the skin.
+    std::vector<double> out(const SkinResponse& response, double degrees) const {
+        std::vector<double> all;
+        const TriangleMesh now{skins::places({skin, {}, {}}, response), skin.triangles};
+        for (std::size_t m = 2; m < bodies.size(); ++m)
+            for (const double depth : skins::poking(verticesBetween(*bodies[m], 0, bent(degrees)), now, 1))
+                all.push_back(depth);
+        return all;
+    }
+};
+
 } // namespace
+
+TEST_CASE("contact in a limb of overlapping muscles bent far is no worse than none") {
+    const FleshyLimb limb(130);
+    for (const double degrees : {60.0, 90.0, 130.0}) {
+        const SkinResponse off = limb.at(degrees, false), on = limb.at(degrees, true);
+        const SkinFollowMeasure measure(limb.skin, limb.bodies, on.rig());
+        const SkinFollowing with = measure.at(on.positions(), limb.posesAt(degrees)),
+                            without = SkinFollowMeasure(limb.skin, limb.bodies, off.rig())
+                                          .at(off.positions(), limb.posesAt(degrees));
+        const std::vector<double> outOn = limb.out(on, degrees), outOff = limb.out(off, degrees);
+        const auto sum = [](const std::vector<double>& x) {
+            return std::accumulate(x.begin(), x.end(), 0.0);
+        };
+        std::cout << "fleshy limb by " << degrees << " degrees, without contact and with: turned over "
+                  << without.turnedOver << ", " << with.turnedOver << "; edges " << without.shortest << " to "
+                  << without.longest << ", " << with.shortest << " to " << with.longest
+                  << "; muscles out of the skin " << *std::ranges::max_element(outOff) << ", "
+                  << *std::ranges::max_element(outOn) << " at worst, together " << sum(outOff) << ", "
+                  << sum(outOn) << "; skin moved by " << skins::distance(on, off) << '\n';
+        CHECK(with.turnedOver <= without.turnedOver);
+        // Bent farther, the nearest skin is often that of the other half of the limb.
+        if (degrees <= 90) CHECK(sum(outOn) < 0.1 * sum(outOff));
+    }
+}
 
 TEST_CASE("a limb's skin follows the bone that it lies on and does not collapse where the limb bends") {
     constexpr int rings = 90;
