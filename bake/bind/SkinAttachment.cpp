@@ -3,8 +3,8 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/bind/SkinNormals.h"
+#include "bake/bind/SkinSpans.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/respond/SkinSpans.h"
 
 #include <algorithm>
 #include <array>

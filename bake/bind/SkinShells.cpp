@@ -1,4 +1,4 @@
-#include "bake/bind/SkinShares.h"
+#include "bake/bind/SkinClaims.h"
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"

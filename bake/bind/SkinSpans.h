@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/respond/SkinAttachment.h"
+#include "bake/bind/SkinAttachment.h"
 
 namespace tss {
 

@@ -1,4 +1,4 @@
-#include "bake/respond/SkinSpans.h"
+#include "bake/bind/SkinSpans.h"
 
 #include "bake/base/Parallel.h"
 
