@@ -1,9 +1,9 @@
 #include "SkinMeasure.h"
 
+#include "bake/bind/MuscleShares.h"
+#include "bake/bind/SkinMoves.h"
 #include "bake/motion/MuscleSpan.h"
-#include "bake/respond/MuscleShares.h"
 #include "bake/respond/SkinFollowMeasure.h"
-#include "bake/respond/SkinMoves.h"
 #include "bake/respond/SkinResponse.h"
 
 #include <catch2/catch.hpp>
