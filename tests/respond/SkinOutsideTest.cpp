@@ -68,3 +68,27 @@ TEST_CASE("what of a bone is before the skin at rest does not draw it along when
     response.update(std::vector<double>{0, 0}, away);
     CHECK(skins::exactlyAtRest(response));
 }
+
+TEST_CASE(
+    "skin that its bone has carried past the far side of a thin muscle is not taken for deep inside of it") {
+    Muscle plate = rigid(boxMesh({-0.6, -0.6, -0.03}, {0.6, 0.6, -0.01}));
+    plate.fibre = {{-0.6, 0, -0.02}, {0.6, 0, -0.02}};
+    plate.activationUpper = 1;
+    plate.maxContraction = 0.1;
+    const skins::Couple couple =
+        skins::couple(flat(), {std::move(plate), rigid(boxMesh({-1, -1, -2}, {1, 1, -1}))}, thickness);
+    const std::size_t count = couple.skin.vertices.size();
+    SkinParameters parameters;
+    parameters.frames = {-1, 0};
+    parameters.shares = {std::vector<double>(count, 1)};
+    parameters.attach.assign(count, 0);
+    const std::vector<Pose> down{Pose::Identity(), Pose(Eigen::Translation3d(0, 0, -0.3))};
+    parameters.swings = {BoneSwing{down}};
+    const auto rig = std::make_shared<SkinRig>(*couple.rig(parameters));
+    std::erase_if(rig->rows, [](const SkinRow& row) { return row.kind != SkinContactKind::SkinOnBody; });
+    SkinResponse response(rig);
+    std::vector<Pose> little = down;
+    little[1].translation().z() = -0.015; // within the plate
+    CHECK(response.update(std::vector<double>{0, 0}, little).pushed > 0.004);
+    CHECK(response.update(std::vector<double>{0, 0}, down).pushed == 0);
+}
