@@ -19,17 +19,17 @@ using Move = Eigen::Vector4f;
 struct SkinBody {
     std::uint32_t first = 0, count = 0; ///< range of its vertices among those of all bodies
     std::vector<Tri> triangles;
-    std::vector<Tri> across;                  ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
-    std::vector<double> nodes;                ///< rising activations at which it is tabulated; one: a bone
-    std::vector<Move> rest;                   ///< #count vertices at activation 0, in the skin's frame
-    std::vector<Move> places, normals;        ///< #nodes blocks of #count: vertices and unit normals
-    std::vector<float> strain;                ///< #nodes: strainOf() there
+    std::vector<Tri> across;           ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
+    std::vector<double> nodes;         ///< rising activations at which it is tabulated; one: a bone
+    std::vector<Move> rest;            ///< #count vertices at activation 0, in the skin's frame
+    std::vector<Move> places, normals; ///< #nodes blocks of #count: vertices and unit normals
+    std::vector<float> strain;         ///< #nodes: strainOf() there
     std::vector<float> room; ///< of a muscle, #count: radius of the ball inside that touches it there at rest
-    std::vector<std::uint32_t> blocks;        ///< blocks of skin vertices that it displaces
-    int frame = -1;                           ///< see SkinParameters::frames
-    int insertion = -1;                       ///< see SkinParameters::insertions
-    std::shared_ptr<const MuscleSpan> span;   ///< null where insertion is -1
-    std::shared_ptr<const TriangleMesh> mesh; ///< of a bone; null: a muscle
+    std::vector<std::uint32_t> blocks;                ///< blocks of skin vertices that it displaces
+    int frame = -1;                                   ///< see SkinParameters::frames
+    int insertion = -1;                               ///< see SkinParameters::insertions
+    std::shared_ptr<const MuscleSpan> span;           ///< null where insertion is -1
+    std::shared_ptr<const TriangleMesh> mesh;         ///< of a bone; null: a muscle
     std::shared_ptr<const ClosestPointQuery> locator; ///< on `mesh`
 
     bool bone() const { return mesh != nullptr; }

@@ -54,11 +54,11 @@ void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> 
             visited_[t] = pass_;
             const Tri& corners = rig_.triangles[t];
             const Edges edges = edgesOf(scene.carried, corners);
-            for (const int corner : corners) {
-                const Eigen::Vector3f normal = scene.normalOf(static_cast<std::size_t>(corner));
-                const float area = normal.dot(edges.first.cross(edges.second));
-                if (area > 0) beside_.push_back({t, normal, area});
-            }
+            Eigen::Vector3f outwards = Eigen::Vector3f::Zero();
+            for (const int corner : corners) outwards += scene.normalOf(static_cast<std::size_t>(corner));
+            const Eigen::Vector3f normal = outwards.normalized();
+            const float area = normal.dot(edges.first.cross(edges.second));
+            if (area > 0) beside_.push_back({t, normal, area});
         }
     }
 }

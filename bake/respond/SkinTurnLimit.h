@@ -19,11 +19,10 @@ private:
     void findTriangles(const SkinScene& scene, std::span<const char> blocks);
     bool findFactors(const SkinScene& scene);
 
-    /// A triangle beside displaced skin that is not turned over as the skin is carried, seen along the normal
-    /// of one of its corners.
+    /// A triangle beside displaced skin that is not turned over as the skin is carried.
     struct Beside {
         std::uint32_t triangle = 0;
-        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< of the skin there
+        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, the mean of the skin's at its corners
         float area = 0;                                   ///< as carried, seen along the normal
     };
     const SkinRig& rig_;
