@@ -115,8 +115,7 @@ SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<c
         const auto normal = [&](const auto& x) -> Vec3 {
             return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
         };
-        const Vec3 turned = (turns[t[0]] + turns[t[1]] + turns[t[2]]) * normal(rig_.rest);
-        result.turnedOver += normal(positions).dot(turned) < 0;
+        result.turnedOver += normal(positions).dot(turns[t[0]] * normal(rig_.rest)) < 0;
     }
     return result;
 }
