@@ -4,8 +4,8 @@
 namespace tss {
 
 /// Keeps contacts from turning triangles of the skin over: where pushes would, those around are made smaller
-/// until they do not. What is turned over without them is left as it is. Continuous in the pushes, and
-/// without history.
+/// until they do not, in a bounded number of rounds. What is turned over without them is left as it is.
+/// Continuous in the pushes, and without history.
 class SkinTurnLimit {
 public:
     /// Keeps a reference to the rig.
