@@ -18,11 +18,13 @@ struct SkinParameters {
     std::vector<int> insertions;
     /// #frames of #V in [0,1]: skinning weights; empty: computed from where the bones are.
     std::vector<std::vector<double>> shares;
-    std::vector<BoneSwing> swings; ///< sampled motions of the bodies, one per joint value and direction
-    std::vector<double> tether;    ///< #V in [0,1], how firmly a vertex keeps its rest position; empty: 0
-    std::vector<double> attach;    ///< #V in [0,1], how firmly it follows the muscle below it; empty: 1
-    bool selfContact = false;      ///< the skin collides with itself too: lip against lip, lid against lid
-    int iterations = 60;           ///< most solver iterations for each time that contacts are queried, >= 1
+    std::vector<BoneSwing> swings;   ///< sampled motions of the bodies, one per joint value and direction
+    std::vector<BoneSwing> together; ///< where several joint values go to their limits at once: contacts are
+                                     ///< sought on these too, shares do not depend on them
+    std::vector<double> tether;      ///< #V in [0,1], how firmly a vertex keeps its rest position; empty: 0
+    std::vector<double> attach;      ///< #V in [0,1], how firmly it follows the muscle below it; empty: 1
+    bool selfContact = false;        ///< the skin collides with itself too: lip against lip, lid against lid
+    int iterations = 60;             ///< most solver iterations for each time that contacts are queried, >= 1
 };
 
 inline int insertionOf(const SkinParameters& parameters, std::size_t body) {

@@ -2,8 +2,16 @@
 
 namespace tss {
 
+namespace {
+
+bool isEmpty(const Bvh::Node& node) {
+    return node.lower[0] > node.upper[0];
+}
+
+} // namespace
+
 WideBvh::WideBvh(const Bvh& bvh, std::span<const Vec3> normals) : items_(bvh.items) {
-    if (bvh.empty()) return;
+    if (bvh.empty() || isEmpty(bvh.nodes.front())) return;
     std::vector<Eigen::AlignedBox3d> below(bvh.nodes.size());
     for (std::size_t i = below.size(); i-- > 0;) {
         const Bvh::Node& node = bvh.nodes[i];
@@ -20,24 +28,24 @@ WideBvh::WideBvh(const Bvh& bvh, std::span<const Vec3> normals) : items_(bvh.ite
 /// Returns its index.
 std::uint32_t WideBvh::add(const Bvh& bvh, std::uint32_t index,
                            std::span<const Eigen::AlignedBox3d> normals) {
-    std::vector<std::uint32_t> below{index};
+    std::array<std::uint32_t, 4> below{index};
+    std::size_t count = 1;
     for (int level = 0; level < 2; ++level) {
-        std::vector<std::uint32_t> next;
-        for (const std::uint32_t child : below) {
-            next.push_back(child);
-            if (bvh.nodes[child].count > 0) continue;
-            next.back() = bvh.nodes[child].first;
-            next.push_back(bvh.nodes[child].first + 1);
+        const std::array<std::uint32_t, 4> above = below;
+        for (std::size_t c = 0, before = std::exchange(count, 0); c < before; ++c) {
+            const Bvh::Node& child = bvh.nodes[above[c]];
+            below[count++] = child.count > 0 ? above[c] : child.first;
+            if (child.count == 0) below[count++] = child.first + 1;
         }
-        below.swap(next);
     }
     constexpr float nowhere = 1e18f; // its square is still a float
     const auto place = static_cast<std::uint32_t>(nodes_.size());
     Node& node = nodes_.emplace_back();
     for (int k = 0; k < 3; ++k) node.lower[k] = node.upper[k] = Four::Constant(nowhere);
     for (int k = 0; k < 3; ++k) node.least[k] = node.most[k] = Four::Zero();
-    for (std::size_t c = 0; c < below.size(); ++c) {
+    for (std::size_t c = 0; c < count; ++c) {
         const Bvh::Node& child = bvh.nodes[below[c]];
+        if (isEmpty(child)) continue;
         const auto lane = static_cast<Eigen::Index>(c);
         for (int k = 0; k < 3; ++k) {
             node.lower[k][lane] = static_cast<float>(child.lower[k] - centre_[k]);
@@ -48,8 +56,8 @@ std::uint32_t WideBvh::add(const Bvh& bvh, std::uint32_t index,
         node.first[c] = child.first;
         node.count[c] = child.count;
     }
-    for (std::size_t c = 0; c < below.size(); ++c)
-        if (bvh.nodes[below[c]].count == 0) {
+    for (std::size_t c = 0; c < count; ++c)
+        if (bvh.nodes[below[c]].count == 0 && !isEmpty(bvh.nodes[below[c]])) {
             const std::uint32_t child = add(bvh, below[c], normals);
             nodes_[place].first[c] = child;
         }

@@ -129,6 +129,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.stray = std::move(moves.stray);
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;
+    search.swings.insert(search.swings.end(), parameters.together.begin(), parameters.together.end());
     search.insertions = parameters.insertions;
     skin.table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress));
     skin.sourceHash = sourceHash(scene, skin);

@@ -8,6 +8,7 @@
 #include "bake/respond/SkinRig.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -22,35 +23,67 @@ const TriangleMesh& meshOf(const SceneModel& scene, const SkinModel& skin) {
 
 constexpr int stations = 16; ///< of a swing, after rest
 
-/// What the bones under a skin do while one joint value at a time goes to either limit. farTurns: takes the
-/// joints that turn by more than half a turn from rest.
-std::vector<BoneSwing> swingsOf(const SceneModel& scene, const SkinModel& skin,
-                                std::vector<std::string>* farTurns) {
+/// What the bones under a skin do while the joint values go from rest to `end`, all in proportion; empty
+/// where that moves none of them.
+BoneSwing swingTo(const SceneModel& scene, const SkinModel& skin, const std::vector<double>& end) {
     const std::vector<double> rest = restValues(scene);
-    std::vector<double> values = rest;
-    std::vector<BoneSwing> swings;
+    BoneSwing swing;
+    bool moves = false;
+    for (int s = 1; s <= stations; ++s) {
+        std::vector<double> values = end;
+        for (std::size_t k = 0; k < rest.size() && s < stations; ++k)
+            values[k] = rest[k] + (end[k] - rest[k]) * s / stations;
+        swing.push_back(skinPoses(scene, skin, posedBodies(scene, values)));
+        for (const Pose& pose : swing.back()) moves = moves || pose.matrix() != Pose::Identity().matrix();
+    }
+    if (!moves) swing.clear();
+    return swing;
+}
+
+constexpr std::size_t mostColumns = 64; ///< joint values that are combined freely: 128 rows at most
+
+/// Row of a two-level orthogonal array of strength 3 (Hedayat, Sloane, Stufken, "Orthogonal Arrays", 1999):
+/// in the 2 * bit_ceil(n) rows of n columns any three columns take all eight combinations equally often.
+bool upperIn(std::size_t row, std::size_t column) {
+    return std::popcount(row & (1 | (column % mostColumns) << 1)) % 2 == 1;
+}
+
+/// Fills the swings: one joint value at a time to either limit, and several together. farTurns: takes the
+/// joints that turn by more than half a turn from rest.
+void addSwings(const SceneModel& scene, const SkinModel& skin, std::vector<std::string>* farTurns,
+               SkinParameters& parameters) {
+    const std::vector<double> rest = restValues(scene);
+    struct Value {
+        std::size_t index;
+        std::array<double, 2> ends;
+    };
+    std::vector<Value> values; // that move bones under the skin
     std::size_t next = 0;
     for (const Joint& joint : scene.joints)
         for (const Dof& dof : joint.dofs) {
+            const std::size_t before = parameters.swings.size();
             for (const double limit : swingEnds(dof)) {
                 if (limit == dof.rest) continue;
-                BoneSwing swing;
-                bool moves = false;
-                for (int s = 1; s <= stations; ++s) {
-                    values[next] = s == stations ? limit : dof.rest + (limit - dof.rest) * s / stations;
-                    swing.push_back(skinPoses(scene, skin, posedBodies(scene, values)));
-                    for (const Pose& pose : swing.back())
-                        moves = moves || pose.matrix() != Pose::Identity().matrix();
-                }
-                values = rest;
-                if (moves && farTurns && std::abs(limit - dof.rest) > (1 + 1e-6) * std::numbers::pi &&
+                std::vector<double> end = rest;
+                end[next] = limit;
+                BoneSwing swing = swingTo(scene, skin, end);
+                if (swing.empty()) continue;
+                parameters.swings.push_back(std::move(swing));
+                if (farTurns && std::abs(limit - dof.rest) > (1 + 1e-6) * std::numbers::pi &&
                     dof.kind == DofKind::Rotation)
                     farTurns->push_back(joint.path);
-                if (moves) swings.push_back(std::move(swing));
             }
+            if (parameters.swings.size() > before) values.push_back({next, swingEnds(dof)});
             ++next;
         }
-    return swings;
+    if (values.size() < 2) return;
+    for (std::size_t row = 0; row < 2 * std::bit_ceil(std::min(values.size(), mostColumns)); ++row) {
+        std::vector<double> end = rest;
+        for (std::size_t column = 0; column < values.size(); ++column)
+            end[values[column].index] = values[column].ends[upperIn(row, column) ? 1 : 0];
+        parameters.together.push_back(swingTo(scene, skin, end));
+    }
+    std::erase_if(parameters.together, [](const BoneSwing& swing) { return swing.empty(); });
 }
 
 /// What each body under a skin moves with: one frame a bone. What only an insertion moves with carries no
@@ -167,7 +200,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
     parameters.frames = framesOf(scene, skin);
     for (const UnderSkin& under : underSkin(scene, skin)) parameters.insertions.push_back(under.insertion);
     parameters.shares = sharesOf(scene, skin, parameters.frames);
-    parameters.swings = swingsOf(scene, skin, farTurns);
+    addSwings(scene, skin, farTurns, parameters);
     parameters.tether = skin.tether;
     parameters.attach = skin.attach;
     return parameters;

@@ -26,6 +26,9 @@ constexpr int walkSteps = 40;
 /// Contact with a bone is sought up to this depth, the larger of a multiple of the skin's radius and a
 /// run-time length; it fades out over the last quarter of it.
 constexpr float boneReach = 12, boneReachOfSize = 0.1f;
+/// A part of the skin behind a vertex at rest is an obstacle up to a depth of this share of their distance
+/// then, and none from twice that on.
+constexpr float ownLayer = 0.25f;
 
 float smoothStep(float t) {
     t = std::clamp(t, 0.0f, 1.0f);
@@ -206,12 +209,18 @@ SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow&
     return walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
 }
 
+Vec3f placeAtRest(const SkinRig& rig, const SurfacePoint& hit) {
+    Vec3f place = Vec3f::Zero();
+    for (int k = 0; k < 3; ++k)
+        place += hit.weights[k] * rig.places[rig.triangles[hit.triangle][k]].head<3>();
+    return place;
+}
+
 /// Signed height of the skin at rest above a vertex, at the point of the skin that the vertex touches now;
 /// fades to 0 where that point lay to the side. place, normal: of the vertex at rest.
 float heightAtRest(const SkinRig& rig, const Vec3f& place, const Vec3f& normal, const SurfacePoint& hit) {
     const Tri& corners = rig.triangles[hit.triangle];
-    Vec3f away = -place;
-    for (int k = 0; k < 3; ++k) away += hit.weights[k] * rig.places[corners[k]].head<3>();
+    const Vec3f away = placeAtRest(rig, hit) - place;
     const Vec3f smooth = smoothNormal(hit, corners, [&](int c) { return rig.placeNormals[c].head<3>(); });
     const float above = (smooth + normal).normalized().dot(away);
     return above == 0 ? 0 : above * smoothStep(2 * std::abs(above) / away.norm() - 0.5f);
@@ -280,10 +289,13 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Vec3f away = x - hit.point, both = (smooth - own).normalized();
     if (both.dot(away) < 0) {
         trust *= entryTrust(away.norm(), motionSinceRest(rig, scene, row).norm() - row.offset);
-        // A part of the skin behind the vertex at rest is the back of its own layer, and no obstacle.
-        trust *= entryTrust(
-            heightAtRest(rig, rig.places[row.vertex].head<3>(), -rig.placeNormals[row.vertex].head<3>(), hit),
-            enterDepth * rig.radius);
+        // A part of the skin behind the vertex at rest may be the back of its own layer, and no obstacle:
+        // unless it was much farther away.
+        const Vec3f place = rig.places[row.vertex].head<3>(),
+                    outward = rig.placeNormals[row.vertex].head<3>();
+        const float apart = (place - placeAtRest(rig, hit)).norm();
+        trust *= std::max(entryTrust(heightAtRest(rig, place, -outward, hit), enterDepth * rig.radius),
+                          entryTrust(away.norm(), ownLayer * apart));
     }
     if (!(trust > 0)) return plane;
     fillPlane(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);

@@ -3,6 +3,7 @@
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/respond/SkinContact.h"
+#include "bake/respond/SkinContactSearch.h"
 
 #include <algorithm>
 #include <set>
@@ -12,105 +13,11 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-/// In radii of the skin: how near to the skin a body's vertex, or another part of the skin, has to come.
-constexpr double contactReach = 3;
-constexpr std::size_t swingStops = 4; ///< samples of each swing at which contacts are sought
-
-/// Activations and poses at which contacts are sought.
-struct Station {
-    std::vector<double> activations;
-    std::vector<Pose> poses;
-};
-
-std::vector<Station> stationsOf(const SkinRig& rig) {
-    const std::size_t bodies = rig.bodies.size();
-    const Station rest{std::vector<double>(bodies, 0), std::vector<Pose>(bodies, Pose::Identity())};
-    std::vector<Station> result{rest};
-    for (std::size_t m = 0; m < bodies; ++m)
-        for (const double end : {rig.bodies[m].nodes.front(), rig.bodies[m].nodes.back()}) {
-            if (end == 0) continue;
-            result.push_back(rest);
-            result.back().activations[m] = end;
-        }
-    for (const BoneSwing& swing : rig.parameters.swings)
-        for (std::size_t s = swingStops; s > 0; --s) {
-            result.push_back(rest);
-            result.back().poses = swing[(s * swing.size() + swingStops - 1) / swingStops - 1];
-        }
-    return result;
-}
-
 Vec3 triangleNormal(const TriangleMesh& mesh, int t) {
     return mesh.areaNormal(static_cast<std::size_t>(t)).normalized();
 }
 
-/// Contacts of vertices with the skin that were found at the stations.
-struct FoundContacts {
-    std::vector<std::vector<int>> triangles; ///< per vertex: triangles of the skin that it came near to
-    std::vector<char> outside;               ///< per vertex: a muscle's that is above the skin at rest
-    std::vector<char> stickingOut;           ///< per vertex: a bone's, such as a tooth's, that is above it
-
-    explicit FoundContacts(std::size_t vertices)
-        : triangles(vertices), outside(vertices, 0), stickingOut(vertices, 0) {}
-
-    void add(std::size_t vertex, int triangle) {
-        auto& list = triangles[vertex];
-        if (std::find(list.begin(), list.end(), triangle) == list.end()) list.push_back(triangle);
-    }
-};
-
-/// Adds body vertices that come near to the skin above them.
-void findBodyContacts(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-                      const ClosestPointQuery& locator, bool atRest, FoundContacts& found) {
-    const double reach = contactReach * static_cast<double>(rig.radius);
-    Eigen::AlignedBox3d box = bounds(skin);
-    for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
-        const SkinBody& body = rig.bodies[m];
-        const SkinScene::Placed& placed = scene.bodies[m];
-        parallelFor(body.count, [&](std::size_t k) {
-            const std::uint32_t v = body.first + static_cast<std::uint32_t>(k);
-            const Vec3 x = placed.toSkin(scene.surface[v].head<3>()).cast<double>();
-            if (box.squaredExteriorDistance(x) > reach * reach) return;
-            const Vec3 own = (placed.turn * scene.normals[v].head<3>()).cast<double>();
-            if (found.outside[v] || found.stickingOut[v]) return;
-            if (atRest && !body.bone()) {
-                const NearestPoint any = locator.nearest(x, reach);
-                if (any.triangle >= 0 && triangleNormal(skin, any.triangle).dot(x - any.point) > 0) {
-                    found.outside[v] = 1;
-                    found.add(v, any.triangle);
-                    return;
-                }
-            }
-            const NearestPoint near = locator.nearestFacing(x, reach, own);
-            if (near.triangle < 0) return;
-            const double above = triangleNormal(skin, near.triangle).dot(near.point - x);
-            if (above >= -static_cast<double>(enterDepth * rig.radius))
-                found.add(v, near.triangle);
-            else if (atRest)
-                found.stickingOut[v] = 1;
-        });
-    }
-}
-
-/// Adds skin vertices that come near to another part of the skin.
-void findSelfContacts(const SkinRig& rig, const SkinScene& scene, const TriangleMesh& skin,
-                      const ClosestPointQuery& locator, FoundContacts& found) {
-    const double reach = contactReach * static_cast<double>(rig.radius),
-                 depth = static_cast<double>(enterDepth * rig.radius);
-    parallelFor(skin.vertices.size(), [&](std::size_t v) {
-        const Vec3 own = scene.normalOf(v).cast<double>();
-        const Vec3& x = skin.vertices[v];
-        const NearestPoint near = locator.nearestFacing(x, reach, -own);
-        if (near.triangle < 0 || (skin.triangles[near.triangle].array() == static_cast<int>(v)).any()) return;
-        // In front of the triangle, and the triangle in front of the vertex: not the back of its own layer.
-        if (triangleNormal(skin, near.triangle).dot(x - near.point) < -depth ||
-            own.dot(near.point - x) < -depth)
-            return;
-        found.add(v, near.triangle);
-    });
-}
-
-void addRowsOf(SkinRig& rig, const FoundContacts& found, SkinContactKind kind, std::vector<bool>& pushed) {
+void addRowsOf(SkinRig& rig, const SkinContacts& found, SkinContactKind kind, std::vector<bool>& pushed) {
     std::size_t body = 0;
     for (std::uint32_t v = 0; v < found.triangles.size(); ++v) {
         const std::vector<int>& triangles = found.triangles[v];
@@ -275,19 +182,9 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& can
     std::sort(rig.rows.begin(), rig.rows.end(), [](const SkinRow& a, const SkinRow& b) {
         return std::pair(a.vertex, a.body) < std::pair(b.vertex, b.body);
     });
-    FoundContacts bodies(rig.bodyVertices), folds(rig.parameters.selfContact ? rig.places.size() : 0);
-    SkinScene scene;
-    bool atRest = true;
-    for (const Station& station : stationsOf(rig)) {
-        placeBodies(rig, station.activations, station.poses, {}, scene);
-        const TriangleMesh skin = meshOf(scene.carried, rig.triangles);
-        const ClosestPointQuery locator(skin);
-        findBodyContacts(rig, scene, skin, locator, atRest, bodies);
-        atRest = false;
-        if (rig.parameters.selfContact) findSelfContacts(rig, scene, skin, locator, folds);
-    }
-    addRowsOf(rig, bodies, SkinContactKind::BodyOnSkin, pushed);
-    addRowsOf(rig, folds, SkinContactKind::SkinOnSkin, pushed);
+    const SkinContactSearch found = searchContacts(rig);
+    addRowsOf(rig, found.bodies, SkinContactKind::BodyOnSkin, pushed);
+    addRowsOf(rig, found.folds, SkinContactKind::SkinOnSkin, pushed);
     return pushed;
 }
 

@@ -17,9 +17,8 @@ struct ContactCandidate {
 std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table);
 
 /// Fills rows and starts: skin vertices against bodies, from the candidates; body vertices against the skin;
-/// with self contact skin vertices against other parts of the skin. The latter two are found by queries at
-/// rest, at both ends of each muscle's range and along the swings of the bones. Returns, #touched, which
-/// vertices contacts may push.
+/// with self contact skin vertices against other parts of the skin. The latter two are found by
+/// searchContacts(). Returns, #touched, which vertices contacts may push.
 std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
                           const std::vector<std::uint32_t>& indexOf);
 

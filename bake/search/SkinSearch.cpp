@@ -2,153 +2,45 @@
 
 #include "bake/base/Error.h"
 #include "bake/base/Parallel.h"
+#include "bake/geometry/Bvh.h"
 #include "bake/geometry/TriangleDistance.h"
 #include "bake/motion/PoseBlend.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-/// The moving spheres of one muscle, and the skin carried by it.
-struct MuscleSweep {
-    MuscleTrack spheres;
-    std::vector<double> radii;  ///< #nodes blocks of #spheres
-    std::vector<double> shares; ///< #spheres: of the motion of the insertion's bone
-    Eigen::Vector4d side;       ///< Muscle::side
-    MuscleTrack skin;           ///< where it carries each skin vertex; no points when skin is sought at rest
-};
-
-MuscleSweep makeSweep(const SkinSearchMuscle& muscle, const TriangleMesh& skin, SkinPath path) {
-    const Muscle& m = muscle.deformer->muscle();
-    const std::vector<double> nodes = activationNodes(m.activationLower, m.activationUpper);
-    std::vector<MusclePoint> points;
-    for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
-    MuscleSweep sweep{makeTrack(*muscle.deformer, points, nodes), {}, {}, m.side, {}};
-    for (const Sphere& s : muscle.spheres) sweep.shares.push_back(muscle.deformer->insertionShare(s.centre));
-    for (std::size_t i = 0; i < sweep.spheres.thicknesses.size(); ++i)
-        sweep.radii.push_back(sweep.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
-    points.clear();
-    if (path == SkinPath::Carried)
-        for (const Vec3& v : skin.vertices) points.push_back(muscle.deformer->bind(v));
-    sweep.skin = makeTrack(*muscle.deformer, points, nodes);
-    return sweep;
-}
-
 /// Two boxes are farther apart than that, by more than rounding.
 bool apart(const Box& a, const Box& b, double distance) {
     return a.squaredExteriorDistance(b) > (1 + 1e-9) * distance * distance;
 }
 
-/// Some activation brings muscle sphere j within `near` (radius of the skin sphere + travel) of the path of
-/// skin vertex v. The path at an activation is the segment from its rest place to where it is carried; over a
-/// stretch of activations the moving end is boxed in by the segment's own motion. swept: what the sphere
-/// sweeps; path: what the vertex does.
-bool reaches(const MuscleSweep& sweep, std::size_t j, const Box& swept, const Vec3& rest, std::size_t v,
-             const Box& path, double near) {
-    if (apart(swept, path, near + path.diagonal().norm())) return false;
-    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
-    const bool carried = sweep.skin.points > 0;
-    for (std::size_t n = 0; n < nodes; ++n) {
-        const std::size_t m = std::min(n + 1, nodes - 1);
-        const Vec3 &a = sweep.spheres.positions[n * stride + j], &b = sweep.spheres.positions[m * stride + j];
-        double distance = near + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
-        double squared = 0;
-        if (carried) {
-            const Vec3& from = sweep.skin.positions[n * sweep.skin.points + v];
-            const Vec3& to = sweep.skin.positions[m * sweep.skin.points + v];
-            // Over the stretch the path's end moves by |to - from|: it stays that near to the first path.
-            distance += (to - from).norm();
-            squared = squaredDistanceOfSegments(a, b, rest, from);
-        } else {
-            squared = (rest - closestOnSegment(rest, a, b)).squaredNorm();
-        }
-        if (squared <= distance * distance) return true;
-    }
-    return false;
-}
+/// The spheres of a muscle or bone that move alike, with the muscle's own frame: all of them, or, between two
+/// bones, those whose share of the insertion's motion is next to `share`.
+struct SphereGroup {
+    double share = 0;
+    std::vector<std::uint32_t> spheres;
+    Bvh tree; ///< over what each of them sweeps
+};
 
-int insertionOf(const SkinSearchOptions& options, std::size_t m) {
-    return options.insertions.empty() ? -1 : options.insertions[m];
-}
-
-/// Where a skin vertex is, seen from the bone of muscle m, at each station of each swing; rest where it does
-/// not move against it. share: between two bones, from what the muscle moves with there, round its side.
-using SwungPaths = std::vector<std::vector<Vec3>>;
-
-SwungPaths swungPaths(const SkinSearchOptions& options, std::size_t m, double share,
-                      const Eigen::Vector4d& side, const Vec3& x, std::size_t v) {
-    SwungPaths paths;
-    for (const BoneSwing& swing : options.swings) {
-        std::vector<Vec3> path{x};
-        bool moves = false;
-        for (const std::vector<Pose>& station : swing) {
-            PoseBlend blend;
-            bool carried = false;
-            for (std::size_t k = 0; k < options.shares.size(); ++k)
-                if (options.shares[k][v] > 0 && station[k].matrix() != Pose::Identity().matrix()) {
-                    blend.add(options.shares[k][v], DualPose(station[k]));
-                    carried = true;
-                }
-            const Vec3 y = carried ? blend.pose() * x : x;
-            const Pose& origin = station[m];
-            const int insertion = insertionOf(options, m);
-            const Pose own = insertion < 0 ? origin : blendBetween(origin, station[insertion], share, side);
-            path.push_back(own.inverse() * y);
-            moves = moves || path.back() != x;
-        }
-        if (moves) paths.push_back(std::move(path));
-    }
-    return paths;
-}
-
-constexpr double stepSlack = 0.1; ///< of a step between stations: how far the true path may leave the chord
-
-/// Between two bones paths are seen from so many places along the muscle, each for the spheres next to it.
+/// Between two bones spheres are taken together that are next to one of so many shares.
 constexpr int spanStops = 9;
 
-int stopOf(double share) {
-    return static_cast<int>(std::lround(share * (spanStops - 1)));
-}
-
-/// How far a vertex may be elsewhere, seen from half way to the next stop.
-double betweenStops(const SkinSearchOptions& options, std::size_t m, int stop, const Eigen::Vector4d& way,
-                    const Vec3& x, std::size_t v, const SwungPaths& paths) {
-    if (insertionOf(options, m) < 0 || paths.empty()) return 0;
-    const double side = stop + 1 < spanStops ? 0.5 : -0.5;
-    const SwungPaths beside = swungPaths(options, m, (stop + side) / (spanStops - 1), way, x, v);
-    double most = 0;
-    for (std::size_t k = 0; k < std::min(paths.size(), beside.size()); ++k)
-        for (std::size_t s = 0; s < paths[k].size(); ++s)
-            most = std::max(most, (paths[k][s] - beside[k][s]).norm());
-    return (1 + stepSlack) * most;
-}
-
-/// The same while the bones swing. carried: how far muscle j's own contraction may carry the vertex
-/// meanwhile.
-bool reachesSwung(const MuscleSweep& sweep, std::size_t j, const Box& swept, const SwungPaths& paths,
-                  double near, double carried) {
-    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
-    for (const std::vector<Vec3>& path : paths)
-        for (std::size_t s = 0; s + 1 < path.size(); ++s) {
-            const double room = near + carried + stepSlack * (path[s + 1] - path[s]).norm();
-            if (apart(swept, Box(path[s]).extend(path[s + 1]), room)) continue;
-            for (std::size_t n = 0; n < nodes; ++n) {
-                const std::size_t m = std::min(n + 1, nodes - 1);
-                const double distance =
-                    room + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
-                if (squaredDistanceOfSegments(sweep.spheres.positions[n * stride + j],
-                                              sweep.spheres.positions[m * stride + j], path[s],
-                                              path[s + 1]) <= distance * distance)
-                    return true;
-            }
-        }
-    return false;
-}
+/// The moving spheres of one muscle, and the skin that they were found to reach.
+struct MuscleSweep {
+    MuscleTrack spheres;
+    std::vector<double> radii; ///< #nodes blocks of #spheres
+    std::vector<Box> swept;    ///< #spheres: everything that each sweeps
+    std::vector<SphereGroup> groups;
+    Eigen::Vector4d side;                 ///< Muscle::side
+    int insertion = -1;                   ///< as in SkinSearchOptions
+    std::vector<double> carried;          ///< #V: how far its contraction carries a vertex, at most
+    std::vector<std::vector<bool>> found; ///< #V of #spheres, or of none
+};
 
 /// Everything that a muscle sphere sweeps.
 Box sweptBox(const MuscleSweep& sweep, std::size_t j) {
@@ -162,68 +54,173 @@ Box sweptBox(const MuscleSweep& sweep, std::size_t j) {
     return box;
 }
 
-/// What the path of a skin vertex sweeps.
-Box pathBox(const MuscleSweep& sweep, const Vec3& rest, std::size_t v) {
-    Box box(rest);
-    for (std::size_t n = 0; n < sweep.spheres.nodes.size() && sweep.skin.points > 0; ++n)
-        box.extend(sweep.skin.positions[n * sweep.skin.points + v]);
-    return box;
+std::vector<SphereGroup> groupsOf(const MuscleSweep& sweep, const SkinSearchMuscle& muscle) {
+    std::vector<SphereGroup> groups(sweep.insertion < 0 ? 1 : spanStops);
+    for (std::size_t stop = 0; stop < groups.size(); ++stop)
+        groups[stop].share = static_cast<double>(stop) / (spanStops - 1);
+    for (std::uint32_t j = 0; j < muscle.spheres.size(); ++j) {
+        const double share =
+            sweep.insertion < 0 ? 0 : muscle.deformer->insertionShare(muscle.spheres[j].centre);
+        groups[static_cast<std::size_t>(std::lround(share * (spanStops - 1)))].spheres.push_back(j);
+    }
+    for (SphereGroup& group : groups) {
+        std::vector<Box> boxes;
+        for (const std::uint32_t j : group.spheres) boxes.push_back(sweep.swept[j]);
+        group.tree = buildBvh(boxes);
+    }
+    return groups;
 }
 
-std::vector<SpherePair> pairsOfMuscle(const MuscleSweep& sweep, const SphereSet& spheres,
-                                      const TriangleMesh& skin, const std::vector<double>& radii,
-                                      const SkinSearchOptions& options, std::size_t muscle, int stop) {
-    const std::span<const double> stray =
-        options.stray.empty() ? std::span<const double>() : std::span<const double>(options.stray[muscle]);
-    const auto near = [&](std::uint32_t v) {
-        return radii[v] + options.travel + (stray.empty() ? 0 : stray[v]);
-    };
-    // Skin boxes in rising order of their lower x, so that a sphere looks only at a window of them.
-    std::vector<Box> paths(skin.vertices.size()), boxes(skin.vertices.size());
-    std::vector<SwungPaths> swung(skin.vertices.size());
-    std::vector<double> carried(skin.vertices.size(), 0);
-    double widest = 0;
-    for (std::size_t v = 0; v < boxes.size(); ++v) {
-        boxes[v] = paths[v] = pathBox(sweep, skin.vertices[v], v);
-        carried[v] =
-            std::max((boxes[v].max() - skin.vertices[v]).norm(), (boxes[v].min() - skin.vertices[v]).norm());
-        swung[v] = swungPaths(options, muscle, static_cast<double>(stop) / (spanStops - 1), sweep.side,
-                              skin.vertices[v], v);
-        carried[v] += betweenStops(options, muscle, stop, sweep.side, skin.vertices[v], v, swung[v]);
-        double slack = 0;
-        for (const std::vector<Vec3>& path : swung[v])
-            for (std::size_t s = 0; s + 1 < path.size(); ++s) {
-                boxes[v].extend(path[s + 1]);
-                slack = std::max(slack, carried[v] + stepSlack * (path[s + 1] - path[s]).norm());
-            }
-        const Vec3 grow = Vec3::Constant(near(static_cast<std::uint32_t>(v)) + slack);
-        boxes[v].min() -= grow;
-        boxes[v].max() += grow;
-        widest = std::max(widest, boxes[v].sizes()[0]);
-    }
-    std::vector<std::uint32_t> order(boxes.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t l, std::uint32_t r) {
-        return std::pair(boxes[l].min()[0], l) < std::pair(boxes[r].min()[0], r);
-    });
+MuscleSweep makeSweep(const SkinSearchMuscle& muscle, int insertion, std::size_t vertices) {
+    std::vector<MusclePoint> points;
+    for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
+    const Muscle& m = muscle.deformer->muscle();
+    MuscleSweep sweep;
+    sweep.spheres =
+        makeTrack(*muscle.deformer, points, activationNodes(m.activationLower, m.activationUpper));
+    for (std::size_t i = 0; i < sweep.spheres.thicknesses.size(); ++i)
+        sweep.radii.push_back(sweep.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
+    for (std::size_t j = 0; j < points.size(); ++j) sweep.swept.push_back(sweptBox(sweep, j));
+    sweep.side = m.side;
+    sweep.insertion = insertion;
+    sweep.groups = groupsOf(sweep, muscle);
+    sweep.carried.resize(vertices, 0);
+    sweep.found.resize(vertices);
+    return sweep;
+}
 
-    std::vector<std::vector<SpherePair>> found(spheres.size());
-    parallelFor(spheres.size(), [&](std::size_t j) {
-        if (insertionOf(options, muscle) >= 0 && stopOf(sweep.shares[j]) != stop) return;
-        const Box swept = sweptBox(sweep, j);
-        auto it = std::lower_bound(order.begin(), order.end(), swept.min()[0] - widest,
-                                   [&](std::uint32_t v, double x) { return boxes[v].min()[0] < x; });
-        for (; it != order.end() && boxes[*it].min()[0] <= swept.max()[0]; ++it) {
-            const std::uint32_t v = *it;
-            if (!boxes[v].intersects(swept)) continue;
-            if (reaches(sweep, j, swept, skin.vertices[v], v, paths[v], near(v)) ||
-                reachesSwung(sweep, j, swept, swung[v], near(v), carried[v]))
-                found[j].push_back({v, static_cast<std::uint32_t>(j)});
+/// Calls reaches(j) for the spheres of a group that may come within `near` of a box and are not found yet to
+/// reach vertex v; those for which it says true are.
+template <class Reaches>
+void findNear(MuscleSweep& sweep, const SphereGroup& group, std::size_t v, const Box& box, double near,
+              Reaches&& reaches) {
+    visitBall(group.tree, box.center(), 0.5 * box.diagonal().norm() + (1 + 1e-9) * near,
+              [&](std::uint32_t item) {
+                  const std::uint32_t j = group.spheres[item];
+                  std::vector<bool>& found = sweep.found[v];
+                  if ((!found.empty() && found[j]) || apart(sweep.swept[j], box, near) || !reaches(j)) return;
+                  if (found.empty()) found.resize(sweep.swept.size(), false);
+                  found[j] = true;
+              });
+}
+
+/// Some activation brings muscle sphere j within `near` (radius of the skin sphere + travel) of the path of a
+/// skin vertex at `rest`. The path at an activation is the segment from there to where it is carried, at the
+/// muscle's nodes; over a stretch of activations the moving end is boxed in by the segment's own motion.
+bool reaches(const MuscleSweep& sweep, std::size_t j, const Vec3& rest, std::span<const Vec3> carried,
+             double near) {
+    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
+    for (std::size_t n = 0; n < nodes; ++n) {
+        const std::size_t m = std::min(n + 1, nodes - 1);
+        const Vec3 &a = sweep.spheres.positions[n * stride + j], &b = sweep.spheres.positions[m * stride + j];
+        double distance = near + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
+        // Over the stretch the path's end moves by |to - from|: it stays that near to the first path.
+        if (!carried.empty()) distance += (carried[m] - carried[n]).norm();
+        const double squared = carried.empty() ? (rest - closestOnSegment(rest, a, b)).squaredNorm()
+                                               : squaredDistanceOfSegments(a, b, rest, carried[n]);
+        if (squared <= distance * distance) return true;
+    }
+    return false;
+}
+
+/// Some activation brings muscle sphere j within `near` of a segment.
+bool reaches(const MuscleSweep& sweep, std::size_t j, const Vec3& from, const Vec3& to, double near) {
+    const std::size_t nodes = sweep.spheres.nodes.size(), stride = sweep.spheres.points;
+    for (std::size_t n = 0; n < nodes; ++n) {
+        const std::size_t m = std::min(n + 1, nodes - 1);
+        const double distance = near + std::max(sweep.radii[n * stride + j], sweep.radii[m * stride + j]);
+        if (squaredDistanceOfSegments(sweep.spheres.positions[n * stride + j],
+                                      sweep.spheres.positions[m * stride + j], from,
+                                      to) <= distance * distance)
+            return true;
+    }
+    return false;
+}
+
+/// What is found while muscle m goes through its activations with all bones at rest.
+void searchRange(MuscleSweep& sweep, const MuscleDeformer& muscle, const TriangleMesh& skin, SkinPath path,
+                 const std::vector<double>& near) {
+    std::vector<MusclePoint> points;
+    if (path == SkinPath::Carried)
+        for (const Vec3& v : skin.vertices) points.push_back(muscle.bind(v));
+    const MuscleTrack track = makeTrack(muscle, points, sweep.spheres.nodes);
+    parallelFor(skin.vertices.size(), [&](std::size_t v) {
+        const Vec3& rest = skin.vertices[v];
+        std::vector<Vec3> carried;
+        for (std::size_t at = v; at < track.positions.size(); at += track.points)
+            carried.push_back(track.positions[at]);
+        Box box(rest);
+        for (const Vec3& x : carried) box.extend(x);
+        sweep.carried[v] = std::max((box.max() - rest).norm(), (box.min() - rest).norm());
+        for (const SphereGroup& group : sweep.groups)
+            findNear(sweep, group, v, box, near[v] + box.diagonal().norm(),
+                     [&](std::size_t j) { return reaches(sweep, j, rest, carried, near[v]); });
+    });
+}
+
+/// Where the skin is at rest and at each station of a swing, #stations + 1 of #V.
+std::vector<std::vector<Vec3>> swungPlaces(const TriangleMesh& skin, const BoneSwing& swing,
+                                           const std::vector<std::vector<double>>& shares) {
+    std::vector<std::vector<Vec3>> places(swing.size() + 1, skin.vertices);
+    for (std::size_t s = 0; s < swing.size(); ++s) {
+        std::vector<DualPose> motions;
+        std::vector<bool> moves;
+        for (const Pose& pose : swing[s]) {
+            motions.emplace_back(pose);
+            moves.push_back(pose.matrix() != Pose::Identity().matrix());
+        }
+        parallelFor(skin.vertices.size(), [&](std::size_t v) {
+            PoseBlend blend;
+            bool carried = false;
+            for (std::size_t k = 0; k < shares.size(); ++k)
+                if (shares[k][v] > 0 && moves[k]) {
+                    blend.add(shares[k][v], motions[k]);
+                    carried = true;
+                }
+            if (carried) places[s + 1][v] = blend.pose() * skin.vertices[v];
+        });
+    }
+    return places;
+}
+
+/// From the skin's frame to that of a place of muscle m that makes a share of its insertion's motion, at rest
+/// and at each station.
+std::vector<Pose> viewsOf(const MuscleSweep& sweep, std::size_t m, double share, const BoneSwing& swing) {
+    std::vector<Pose> views{Pose::Identity()};
+    for (const std::vector<Pose>& station : swing)
+        views.push_back((sweep.insertion < 0
+                             ? station[m]
+                             : blendBetween(station[m], station[sweep.insertion], share, sweep.side))
+                            .inverse());
+    return views;
+}
+
+constexpr double stepSlack = 0.1; ///< of a step between stations: how far the true path may leave the chord
+
+/// What a group of muscle m's spheres meets while the bones swing.
+void searchSwing(MuscleSweep& sweep, std::size_t m, const SphereGroup& group, const BoneSwing& swing,
+                 const std::vector<std::vector<Vec3>>& places, const std::vector<double>& near) {
+    if (group.spheres.empty()) return;
+    const std::vector<Pose> views = viewsOf(sweep, m, group.share, swing);
+    std::vector<Pose> beside; // seen from half way to the next group
+    const double half = 0.5 / (spanStops - 1);
+    if (sweep.insertion >= 0)
+        beside = viewsOf(sweep, m, group.share + (group.share < 1 ? half : -half), swing);
+    parallelFor(near.size(), [&](std::size_t v) {
+        std::vector<Vec3> path;
+        double most = 0;
+        for (std::size_t s = 0; s < views.size(); ++s) {
+            path.push_back(views[s] * places[s][v]);
+            if (!beside.empty()) most = std::max(most, (path[s] - beside[s] * places[s][v]).norm());
+        }
+        for (std::size_t s = 0; s + 1 < path.size(); ++s) {
+            if (path[s] == path[s + 1]) continue;
+            const double room = near[v] + sweep.carried[v] + (1 + stepSlack) * most +
+                                stepSlack * (path[s + 1] - path[s]).norm();
+            findNear(sweep, group, v, Box(path[s]).extend(path[s + 1]), room,
+                     [&](std::size_t j) { return reaches(sweep, j, path[s], path[s + 1], room); });
         }
     });
-    std::vector<SpherePair> pairs;
-    for (const auto& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-    return pairs;
 }
 
 } // namespace
@@ -275,20 +272,39 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
                      const SkinSearchOptions& options, const Progress& progress) {
     checkOptions(skin, muscles, options);
     const double thickness = options.thickness > 0 ? options.thickness : skinThickness(skin);
-    const std::vector<double> radii(skin.vertices.size(), thickness);
+    const double steps = static_cast<double>(muscles.size() + options.swings.size());
+    const auto step = [&](std::size_t k) {
+        if (!report(progress, "skin", static_cast<double>(k) / steps))
+            throw InputError("stopped before the table was complete");
+    };
+    std::vector<MuscleSweep> sweeps;
+    std::vector<std::vector<double>> near; // #muscles of #V
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+        step(m);
+        near.emplace_back(skin.vertices.size(), thickness + options.travel);
+        for (std::size_t v = 0; v < near[m].size() && !options.stray.empty(); ++v)
+            near[m][v] += options.stray[m][v];
+        sweeps.push_back(makeSweep(muscles[m], options.insertions.empty() ? -1 : options.insertions[m],
+                                   skin.vertices.size()));
+        searchRange(sweeps[m], *muscles[m].deformer, skin, options.path, near[m]);
+    }
+    for (std::size_t k = 0; k < options.swings.size(); ++k) {
+        step(muscles.size() + k);
+        const auto places = swungPlaces(skin, options.swings[k], options.shares);
+        for (std::size_t m = 0; m < muscles.size(); ++m)
+            for (const SphereGroup& group : sweeps[m].groups)
+                searchSwing(sweeps[m], m, group, options.swings[k], places, near[m]);
+    }
 
     SphereSet skinSpheres, muscleSpheres;
     for (const Vec3& v : skin.vertices) skinSpheres.push_back({v, thickness});
     std::vector<std::uint32_t> muscleOf;
     std::vector<SpherePair> pairs;
     for (std::size_t m = 0; m < muscles.size(); ++m) {
-        if (!report(progress, "skin", static_cast<double>(m) / static_cast<double>(muscles.size())))
-            throw InputError("stopped before the table was complete");
-        const MuscleSweep sweep = makeSweep(muscles[m], skin, options.path);
         const auto first = static_cast<std::uint32_t>(muscleSpheres.size());
-        for (int stop = 0; stop < (insertionOf(options, m) < 0 ? 1 : spanStops); ++stop)
-            for (SpherePair p : pairsOfMuscle(sweep, muscles[m].spheres, skin, radii, options, m, stop))
-                pairs.push_back({p.a, p.b + first});
+        for (std::uint32_t v = 0; v < skin.vertices.size(); ++v)
+            for (std::uint32_t j = 0; j < sweeps[m].found[v].size(); ++j)
+                if (sweeps[m].found[v][j]) pairs.push_back({v, j + first});
         muscleSpheres.insert(muscleSpheres.end(), muscles[m].spheres.begin(), muscles[m].spheres.end());
         muscleOf.resize(muscleSpheres.size(), static_cast<std::uint32_t>(m));
     }

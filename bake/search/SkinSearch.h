@@ -41,8 +41,8 @@ double skinThickness(const TriangleMesh& skin);
 /// per vertex; skin out of reach has no rows.
 ///   Muscles: spheres move as their MuscleTrack, linear between its nodes, as at run time; each stretch is
 ///   tested as the capsule that the sphere sweeps.
-///   Bones: they swing one joint value at a time, the others at rest. A vertex moves with the blend of their
-///   motions by its shares; between two stations of a swing it may be off the straight line by a tenth of
+///   Bones: they move along the swings, and nothing is known of what they meet elsewhere. A vertex moves with
+///   the blend of their motions by its shares; between two stations of a swing it may be off the straight line by a tenth of
 ///   their distance.
 /// The table's restGaps are the negative gaps of pairs that overlap at activation 0 (METHOD 2.4). The same
 /// table for any number of threads. Throws InputError where progress stops it.

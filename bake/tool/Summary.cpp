@@ -306,7 +306,7 @@ std::string describeTable(const Json& item, double metersPerUnit) {
             "  good         while skin strays no farther than {} from where muscles and bones carry it\n",
             lengthText(travel, metersPerUnit));
     if (item.contains("travel") && !item["certified"].get<bool>())
-        text += "  explored     each muscle and each joint value by itself: where several move at once "
+        text += "  explored     each muscle and joint value by itself, then joints together, from limit to limit: "
                 "nothing is proven\n";
     if (item.contains("residual"))
         text += fmt::format("  residual     {} at most: so deep it goes into what is below it, beyond its "
