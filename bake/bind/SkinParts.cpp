@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace tss {
 namespace {
@@ -241,13 +242,17 @@ void assignBesideVertebrae(const FreePart& part, const std::vector<Vec3>& places
                 made[row[k]].certain.push_back(v);
 }
 
-/// Assigns a part to the bone that it continues, or else to the influence that never moves. If it continues
-/// one and has other neighbours too, it is left to be claimed like all other skin.
-void assignPart(const FreePart& part, std::size_t still, const std::vector<FrameInfluence>& influences,
-                std::vector<SkinInfluence>& made) {
+/// Assigns a part to the bone that it continues, or else to an influence that never moves, if it may be
+/// attached to one of these, or else to the nearest that it may be attached to. If it continues one and has
+/// other neighbours too, it is left to be claimed like all other skin.
+void assignPart(const FreePart& part, std::size_t still, const std::vector<std::size_t>& owners,
+                const std::vector<FrameInfluence>& influences, std::vector<SkinInfluence>& made) {
     const std::optional<std::size_t> from = continuedBone(part, influences);
     if (from && part.neighbours.size() > 1) return;
-    append(made[from.value_or(still)].certain, part.vertices);
+    const auto resting =
+        std::ranges::find_if(owners, [&](std::size_t h) { return influences[h].moves == 0; });
+    const std::size_t other = resting != owners.end() ? *resting : owners.empty() ? still : owners.front();
+    append(made[from.value_or(other)].certain, part.vertices);
 }
 
 } // namespace
@@ -265,12 +270,15 @@ std::vector<SkinInfluence> assignParts(const SkinAnatomy& anatomy, std::vector<F
     const SkinSides sides(anatomy, made, groups);
     for (const FreePart& part : free.parts) {
         if (!anyStill || part.neighbours.empty()) continue;
-        if (isBesideVertebrae(part, influences))
+        if (isBesideVertebrae(part, influences)) {
             assignBesideVertebrae(part, anatomy.skin.vertices, still, influences, made);
-        else if (const std::optional<std::size_t> owner = sides.ownerOf(part.vertices))
-            append(made[*owner].certain, part.vertices);
+            continue;
+        }
+        const std::vector<std::size_t> owners = sides.ownersOf(part.vertices);
+        if (owners.size() == 1)
+            append(made[owners.front()].certain, part.vertices);
         else
-            assignPart(part, still, influences, made);
+            assignPart(part, still, owners, influences, made);
     }
     sides.assignCertain(made);
     return made;

@@ -105,20 +105,25 @@ SkinSides::SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence
     }
 }
 
-/// The influence that is moved by exactly those swings on whose inside the vertex is; the nearest of several.
-std::optional<std::size_t> SkinSides::influenceOf(const std::vector<SkinSide>& sides, std::uint32_t v) const {
-    std::optional<std::size_t> found;
+/// The influences that are moved by all swings on whose inside the vertex is and by none on whose outside it
+/// is; the nearest first.
+std::vector<std::size_t> SkinSides::fitting(const std::vector<SkinSide>& sides, std::uint32_t v) const {
+    std::vector<std::size_t> found;
     for (std::size_t h = 0; h < along_.size(); ++h) {
         if (!seeded_[h] || !std::isfinite(along_[h][v])) continue;
         bool fits = true;
         for (std::size_t s = 0; s < swings_.size() && fits; ++s)
-            fits = sides[s] == (swings_[s].moved[h] ? SkinSide::Inside : SkinSide::Outside);
-        if (fits && (!found || along_[h][v] < along_[*found][v])) found = h;
+            fits = sides[s] != (swings_[s].moved[h] ? SkinSide::Outside : SkinSide::Inside);
+        if (fits) found.push_back(h);
     }
+    std::stable_sort(found.begin(), found.end(),
+                     [&](std::size_t a, std::size_t b) { return along_[a][v] < along_[b][v]; });
+    const bool decided = std::ranges::find(sides, SkinSide::Either) == sides.end();
+    if (decided && found.size() > 1) found.resize(1);
     return found;
 }
 
-std::optional<std::size_t> SkinSides::ownerOf(const std::vector<std::uint32_t>& part) const {
+std::vector<std::size_t> SkinSides::ownersOf(const std::vector<std::uint32_t>& part) const {
     std::vector<SkinSide> sides(swings_.size(), SkinSide::Either);
     parallelFor(swings_.size(), [&](std::size_t s) {
         const SkinCutter cutter(anatomy_.skin, anatomy_.graph, swings_[s].price);
@@ -136,7 +141,7 @@ std::optional<std::size_t> SkinSides::ownerOf(const std::vector<std::uint32_t>& 
         if (toOut < clearShare * toIn) sides[s] = SkinSide::Inside;
         if (toIn < clearShare * toOut) sides[s] = SkinSide::Outside;
     });
-    return swings_.empty() || part.empty() ? std::nullopt : influenceOf(sides, part.front());
+    return swings_.empty() || part.empty() ? std::vector<std::size_t>{} : fitting(sides, part.front());
 }
 
 SkinSides::Sides SkinSides::sidesOf(const std::vector<SkinInfluence>& influences) const {
@@ -160,7 +165,9 @@ void SkinSides::assignCertain(std::vector<SkinInfluence>& influences) const {
     std::vector<SkinSide> here(swings_.size());
     for (std::uint32_t v = 0; v < anatomy_.graph.vertices(); ++v) {
         for (std::size_t s = 0; s < here.size(); ++s) here[s] = sides[s][v];
-        if (const std::optional<std::size_t> h = influenceOf(here, v)) influences[*h].certain.push_back(v);
+        if (std::ranges::find(here, SkinSide::Either) != here.end()) continue;
+        if (const std::vector<std::size_t> fits = fitting(here, v); !fits.empty())
+            influences[fits.front()].certain.push_back(v);
     }
 }
 

@@ -2,8 +2,6 @@
 #include "bake/bind/SkinAttachment.h"
 #include "bake/bind/SkinCut.h"
 
-#include <optional>
-
 namespace tss {
 
 /// Influences that swings of a joint move together.
@@ -21,9 +19,9 @@ public:
     SkinSides(const SkinAnatomy& anatomy, const std::vector<SkinInfluence>& influences,
               const std::vector<MovedGroup>& groups);
 
-    /// The one influence that a part of the skin is attached to, if there is one: to cut it off from all
-    /// others costs next to nothing.
-    std::optional<std::size_t> ownerOf(const std::vector<std::uint32_t>& part) const;
+    /// The influences that a part of the skin may be attached to, the nearest along the skin first: to cut it
+    /// off from all others costs next to nothing. Empty if there are no swings.
+    std::vector<std::size_t> ownersOf(const std::vector<std::uint32_t>& part) const;
 
     /// Assigns to each influence its certain vertices: those farther from every cut than the cut there is
     /// from the seeds.
@@ -39,7 +37,7 @@ private:
     using Sides = std::vector<std::vector<SkinSide>>; ///< #swings of #V
 
     Sides sidesOf(const std::vector<SkinInfluence>& influences) const;
-    std::optional<std::size_t> influenceOf(const std::vector<SkinSide>& sides, std::uint32_t v) const;
+    std::vector<std::size_t> fitting(const std::vector<SkinSide>& sides, std::uint32_t v) const;
 
     const SkinAnatomy& anatomy_;
     std::vector<std::vector<double>> along_; ///< #influences of #V: distance along the skin to its seeds

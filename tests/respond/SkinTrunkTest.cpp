@@ -88,7 +88,8 @@ struct Setting {
     std::optional<Vec3> joint{};          ///< else at the upper end of the first bone that moves
     Vec3 axis = Vec3::UnitY();
     std::vector<Box> body = animal;
-    double splay = 0; ///< of the legs: how much wider they stand per unit further down
+    double splay = 0;           ///< of the legs: how much wider they stand per unit further down
+    std::optional<Vec3> neck{}; ///< about which the last bone turns by itself too, in a swing of its own
 };
 
 /// All bones from the first that moves on are turned by 60 degrees.
@@ -103,12 +104,20 @@ public:
         for (Vec3& v : skin_.vertices) v.y() *= 1 + setting.splay * std::max(0.0, 20 - v.z());
         const Eigen::AlignedBox3d box = bounds(bones[firstMoving]->muscle().surface);
         const Vec3 joint = setting.joint.value_or(Vec3(32, 6, box.max().z() + 0.5));
-        bend = Eigen::Translation3d(joint) * Eigen::AngleAxisd(M_PI / 3, setting.axis) *
-               Eigen::Translation3d(-joint);
+        const auto turnedAbout = [&](const Vec3& at) {
+            return Pose(Eigen::Translation3d(at) * Eigen::AngleAxisd(M_PI / 3, setting.axis) *
+                        Eigen::Translation3d(-at));
+        };
+        bend = turnedAbout(joint);
         std::vector<Pose> poses(bones.size(), Pose::Identity());
         for (std::size_t m = firstMoving; m < bones.size(); ++m) poses[m] = bend;
         SkinParameters parameters;
         parameters.swings = {{poses}};
+        if (setting.neck) {
+            std::vector<Pose> nod(bones.size(), Pose::Identity());
+            nod.back() = turnedAbout(*setting.neck);
+            parameters.swings.push_back({nod});
+        }
         SkinTable nothingMet;
         nothingMet.table.rowOffsets = {0};
         const auto rig = makeSkinRig(skin_, bones, nothingMet, parameters);
@@ -244,6 +253,17 @@ TEST_CASE("a hook on a chest goes with it, though the ways from its end to the b
                     man);
     CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.x() > 10 && x.z() < 18; }) < 1);
     CHECK(bent.farthest(Pose::Identity(), [](const Vec3& x) { return x.z() < 2; }) < 0.5);
+}
+
+TEST_CASE("a hook on the axis of a neck goes with the body, not with a bone that holds still elsewhere") {
+    Setting hooked;
+    hooked.body = {{0, -2, -2, 110, 2, 2}, {41, 2, -1, 43, 12, 1}, {41, 10, 1, 43, 12, 12}};
+    hooked.joint = Vec3(0, 0, 0);
+    hooked.neck = Vec3(42, 0, 0);
+    const Bent bent({boneIn(Vec3(0, -1, -42), Vec3(2, 1, -40)), boneIn(Vec3(5, -1, -1), Vec3(34, 1, 1)),
+                     boneIn(Vec3(42.2, -1, -1), Vec3(109, 1, 1))},
+                    1, hooked);
+    CHECK(bent.farthest(bent.bend, [](const Vec3& x) { return x.z() > 5; }) < 0.05);
 }
 
 TEST_CASE("where no bone holds still the trunk stays, and the smaller end of a limb goes along") {
