@@ -171,27 +171,39 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
     return Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>::Map(m[0]).cast<double>();
 }
 
-/// Throws InputError for a face that names a vertex which is not there.
+/// Without the vertices of points and lines alone, which are no surface and would count in its size. Throws
+/// InputError for a face that names a vertex which is not there.
 void append(const aiMesh& source, TriangleMesh& mesh) {
-    const auto offset = static_cast<int>(mesh.vertices.size());
-    for (unsigned v = 0; v < source.mNumVertices; ++v) {
-        const aiVector3D& p = source.mVertices[v];
-        mesh.vertices.emplace_back(p.x, p.y, p.z);
-    }
-    std::vector<Vec3> corners;
+    enum Use { Loose, OfLine, OfFace };
+    std::vector<Use> uses(source.mNumVertices, Loose);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
         const aiFace& face = source.mFaces[f];
-        corners.clear();
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             if (face.mIndices[k] >= source.mNumVertices)
                 throw InputError(fmt::format("face {} names vertex {}; expected one of 0 to {}", f,
                                              face.mIndices[k],
                                              static_cast<std::int64_t>(source.mNumVertices) - 1));
-            corners.push_back(mesh.vertices[offset + face.mIndices[k]]);
+            Use& use = uses[face.mIndices[k]];
+            use = std::max(use, face.mNumIndices > 2 ? OfFace : OfLine);
         }
-        const auto index = [&](int k) { return offset + static_cast<int>(face.mIndices[k]); };
+    }
+    std::vector<int> place(source.mNumVertices);
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+        if (uses[v] == OfLine) continue;
+        const aiVector3D& p = source.mVertices[v];
+        place[v] = static_cast<int>(mesh.vertices.size());
+        mesh.vertices.emplace_back(p.x, p.y, p.z);
+    }
+    std::vector<Vec3> corners;
+    for (unsigned f = 0; f < source.mNumFaces; ++f) {
+        const aiFace& face = source.mFaces[f];
+        if (face.mNumIndices < 3) continue;
+        corners.clear();
+        for (unsigned k = 0; k < face.mNumIndices; ++k)
+            corners.push_back(mesh.vertices[place[face.mIndices[k]]]);
         for (const Tri& t : triangulated(corners))
-            mesh.triangles.emplace_back(index(t[0]), index(t[1]), index(t[2]));
+            mesh.triangles.emplace_back(place[face.mIndices[t[0]]], place[face.mIndices[t[1]]],
+                                        place[face.mIndices[t[2]]]);
     }
 }
 

@@ -67,6 +67,29 @@ TEST_CASE("polygons are cut into triangles and the parts of a file are one mesh"
     CHECK(mesh.vertices.size() == 6); // 0 1 0 stands in the file twice
 }
 
+TEST_CASE("points and lines beside the faces do not count in a mesh's size") {
+    std::string text = tetrahedronCollada('Z');
+    const auto number = text.find("0 0 3</float_array>");
+    text.replace(number, 5, "0 0 3 9 9 9");
+    text.replace(text.find("count=\"12\""), 10, "count=\"15\"")
+        .replace(text.find("count=\"4\" stride"), 9, "count=\"5\"");
+    text.insert(text.find("<triangles"), "<lines count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" "
+                                         "offset=\"0\"/><p>0 4</p></lines>\n");
+    const TemporaryFile collada("lines.dae", text),
+        obj("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 9 9 9\nl 1 4\nf 1 2 3\n");
+    for (const TemporaryFile* file : {&collada, &obj}) {
+        MeshFileNotes notes;
+        const TriangleMesh mesh = importMesh(file->name, &notes);
+        CHECK(bounds(mesh).max() == Vec3(1, 2, file == &obj ? 0 : 3));
+        CHECK(notes.leftOut == std::vector<std::string>{"1 point or line"});
+    }
+    const TemporaryFile loose("loose.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float "
+                              "y\nproperty float z\nelement face 1\nproperty list uchar int "
+                              "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n9 9 9\n3 0 1 2\n");
+    CHECK(importMesh(loose.name).vertices.size() == 4); // which the audit says
+}
+
 TEST_CASE("the triangles of an STL share their corners again") {
     std::string stl = "solid t\n";
     const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
