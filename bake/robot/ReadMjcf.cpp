@@ -282,8 +282,8 @@ private:
         if (limits && range[0] > range[1]) return untied("joints with a lower limit above their upper one");
         if (type == "ball") return addBall(limits ? compiler_.angle(range[1]) : pi, dof, joint), true;
         const Vec3 axis = place.linear() * vectorOf(numbersOf(file_, element, "axis", 3, 3), Vec3::UnitZ());
-        if (!(axis.norm() > 0)) return untied("joints whose axis is zero");
-        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
+        if (axis.isZero(0)) return untied("joints whose axis is zero");
+        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.stableNormalized());
         const auto ref = numbersOf(file_, element, "ref", 1, 1);
         if (type == "slide") {
             dof.kind = DofKind::Translation;

@@ -153,7 +153,7 @@ private:
         Dof dof;
         dof.kind = model.type == urdf::Joint::PRISMATIC ? DofKind::Translation : DofKind::Rotation;
         const Vec3 axis = vector(model.axis);
-        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.normalized());
+        dof.axis = axis.norm() == 1 ? axis : Vec3(axis.stableNormalized());
         if (model.type == urdf::Joint::CONTINUOUS) {
             dof.lower = -std::numbers::pi;
             dof.upper = std::numbers::pi;

@@ -183,7 +183,7 @@ void checkJoint(const std::string& file, const std::set<std::string>& links, con
         throw InputError(placeOf(file, joint), "expected an element <limit lower=... upper=...>");
     if (const XMLElement* axis = joint.FirstChildElement("axis")) {
         const auto along = numbersOf(file, *axis, "xyz", 3, 3);
-        if (!along.empty() && !(Vec3(along[0], along[1], along[2]).norm() > 0))
+        if (!along.empty() && Vec3(along[0], along[1], along[2]).isZero(0))
             throw InputError(placeOf(file, *axis), "expected an axis that is not zero");
     }
     if (const XMLElement* mimic = joint.FirstChildElement("mimic")) expectAttributes(file, *mimic, {"joint"});

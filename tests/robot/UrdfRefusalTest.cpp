@@ -1,5 +1,6 @@
 // What a URDF may not say, and what is left out of one by name.
 #ifdef OSGTSS_HAVE_URDF
+#include "bake/model/Kinematics.h"
 #include "tests/robot/Urdf.h"
 
 using namespace urdf;
@@ -80,6 +81,18 @@ TEST_CASE("a joint that cannot be read is left out by name, and the rest comes i
          "joint j (line 6) cannot be read (expected the name of a link, found \"nobody\"): left out");
     note("<joint name='j' type='fixed'><parent link='a'/></joint>",
          "joint j (line 6) cannot be read (expected an element <child>): left out");
+}
+
+TEST_CASE("an axis of any length is the direction that it is") {
+    for (const char* axis : {"0 3e200 4e200", "0 3e-200 4e-200", "0 3 4"}) {
+        CAPTURE(axis);
+        const RobotScene robot = madeOfUrdf(
+            robotOf(aLink("a") + aLink("b") +
+                    aJoint("j", "revolute", "a", "b", "<axis xyz='" + std::string(axis) + "'/>" + limits)));
+        REQUIRE(robot.scene.joints.size() == 1);
+        const Motion motion = pairMotion(robot.scene, robot.scene.pairs.at(0));
+        CHECK(motion.dofs.at(0).axis.isApprox(Vec3(0, 0.6, 0.8)));
+    }
 }
 
 TEST_CASE("links that no joint holds come in, tied to nothing") {
