@@ -68,6 +68,8 @@ std::string reasonOf(const tinyxml2::XMLDocument& document) {
         return "expected elements no more than " + std::to_string(mostLevels) + " deep";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
         return "expected the end of the element that was begun last";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+        return "expected <?xml ...?> at the very beginning, before any comment, or nowhere";
     default:
         return "not well-formed XML (" + std::string(document.ErrorName()) + ")";
     }

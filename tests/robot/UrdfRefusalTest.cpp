@@ -119,6 +119,8 @@ TEST_CASE("xacro, document types, bombs and depth are refused by name") {
     const std::string bomb =
         "<!DOCTYPE robot [<!ENTITY a \"lol\"><!ENTITY b \"&a;&a;&a;\">]>\n" + robotOf(aLink("&b;"));
     CHECK(refusedUrdf(bomb).find("line 1: a document type is not read") != std::string::npos);
+    CHECK(refusedUrdf("<!-- licence -->\n" + robotOf(aLink("a")))
+              .find("line 2: expected <?xml ...?> at the very") != std::string::npos);
     std::string deep;
     for (int k = 0; k < 100000; ++k) deep += "<link name='a'>";
     CHECK(refusedUrdf("<robot name='x'>" + deep).find("no more than 100 deep") != std::string::npos);
