@@ -77,20 +77,24 @@ public:
         if (scheme != name.npos && !name.starts_with("file://"))
             throw InputError("file \"" + name +
                              "\": expected package://, model://, file:// or a path, and no other place");
-        const std::string path = scheme == name.npos ? name : name.substr(7);
+        return besideFile(name, scheme == name.npos ? name : name.substr(7));
+    }
+
+private:
+    std::string besideFile(const std::string& name, const std::string& path) const {
         std::vector<fs::path> within{homeOf(folder_)};
         for (const auto& [key, folder] : packages_)
             if (!folder.empty()) within.emplace_back(folder);
         return found(name, folder_ / path, within, ", or in the folder of a --package NAME=DIR");
     }
 
-private:
     std::string inPackage(const std::string& name, const std::string& rest) const {
         const auto begin = std::min(rest.find_first_not_of('/'), rest.size()); // "package:///NAME/PATH" too
         const auto slash = rest.find('/', begin);
         const std::string package = rest.substr(begin, slash - begin);
-        if (slash == rest.npos || package.empty() || package == "." || package == "..")
+        if (package.empty() || package == "." || package == "..")
             throw InputError("file \"" + name + "\": expected package://NAME/PATH");
+        if (slash == rest.npos) return besideFile(name, package); // onshape-to-robot means that by it
         const auto given = packages_.find(package);
         if (given != packages_.end() && given->second.empty()) return "";
         const fs::path folder =

@@ -14,7 +14,7 @@ Packages parsePackages(const std::vector<std::string>& texts);
 ///   upwards from
 ///                                            the file that is called NAME, holds one called NAME, or has a
 ///                                            package.xml that says so
-///   PATH, file://PATH                        beside the file
+///   PATH, file://PATH, package://FILE        beside the file
 /// No file outside the package, outside the folder given, or, for a plain path, outside the package the file
 /// is in (its folder's parent where it is in none) is read, through links neither. Throws InputError that
 /// says where it was looked for. Empty for a package that is left out; whether there is such a file is not

@@ -120,6 +120,8 @@ TEST_CASE("plain paths stay within the package or the parent of the file's folde
     CHECK(find("file://" + mesh) == mesh);
     CHECK(refusal([&] { find("../../secret.stl"); }).find("lies outside") != std::string::npos);
     CHECK(refusal([&] { find(secret); }).find("lies outside") != std::string::npos);
+    const std::string beside = tree.write("robot/urdf/b.stl");
+    CHECK(find("package://b.stl") == beside);                       // as onshape-to-robot writes it
     CHECK(find("file:///no/such/file.stl") == "/no/such/file.stl"); // its link has its other shapes
     CHECK(refusal([&] { find("package://robot/../secret.stl"); }).find("lies outside") != std::string::npos);
     CHECK(refusal([&] { find("package://../secret.stl"); }).find("package://NAME/PATH") != std::string::npos);
