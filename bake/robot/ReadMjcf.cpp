@@ -123,17 +123,23 @@ private:
     /// False where it is none that is read.
     bool readShape(const XMLElement& geom, bool ofWorld, RobotShape& shape) {
         static const std::map<std::string, std::pair<RobotShape::Kind, std::size_t>> kinds = {
-            {"sphere", {RobotShape::Kind::Sphere, 1}},       {"capsule", {RobotShape::Kind::Capsule, 2}},
-            {"cylinder", {RobotShape::Kind::Cylinder, 2}},   {"box", {RobotShape::Kind::Box, 3}},
-            {"ellipsoid", {RobotShape::Kind::Ellipsoid, 3}}, {"mesh", {RobotShape::Kind::Mesh, 0}}};
+            {"sphere", {RobotShape::Kind::Sphere, 1}},
+            {"capsule", {RobotShape::Kind::Capsule, 2}},
+            {"cylinder", {RobotShape::Kind::Cylinder, 2}},
+            {"box", {RobotShape::Kind::Box, 3}},
+            {"ellipsoid", {RobotShape::Kind::Ellipsoid, 3}},
+            {"mesh", {RobotShape::Kind::Mesh, 0}},
+            {"sdf", {RobotShape::Kind::Mesh, 0}}};
         const std::string type = textOf(geom, "type", "sphere"), name = textOf(geom, "name");
         const auto kind = kinds.find(type);
         shape.where = placeOf(file_, geom).pointer;
         if (ofWorld && (type == "plane" || type == "hfield"))
             return leaveOut("geoms of type " + type, name), false;
-        if (kind == kinds.end()) return shape.problem = "a geom of type " + type + " is not read", true;
+        if (kind == kinds.end() || (type == "sdf" && !geom.Attribute("mesh")))
+            return shape.problem = "a geom of type " + type + " is not read", true;
         shape.kind = kind->second.first;
         shape.place = placeOfElement(geom, file_, compiler_);
+        if (type == "sdf") leaveOut("sdf geoms, which are taken as the meshes that they name", name);
         if (shape.kind == RobotShape::Kind::Mesh) return readMesh(geom, shape);
         if (geom.Attribute("mesh")) return shape.problem = "a geom fitted to a mesh is not read", true;
         const std::size_t count = kind->second.second;
@@ -350,7 +356,8 @@ private:
                          name.empty() ? one->Name() : name);
             }
         for (const auto& [kind, names] : leftOut_) {
-            const bool counted = kind.starts_with("joints whose") || kind.starts_with("balls");
+            const bool counted =
+                kind.starts_with("joints whose") || kind.starts_with("balls") || kind.starts_with("sdf");
             constexpr std::size_t most = 20;
             robot_.notes.push_back((counted ? "" : "left out: ") + kind + ": " + firstOf(names, most));
         }

@@ -1,6 +1,7 @@
 #include "bake/robot/MeshFiles.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/robot/ReadMsh.h"
+#include "bake/robot/ReadRobot.h"
 #include "tests/robot/Robots.h"
 
 #include <cmath>
@@ -131,3 +132,19 @@ TEST_CASE("plain paths stay within the package or the parent of the file's folde
     CHECK(refusal([&] { find("../meshes/link.stl"); }).find("lies outside") != std::string::npos);
     CHECK(meshesOf(urdf, parsePackages({"all=" + tree.root.string()}))("../../secret.stl") == secret);
 }
+
+#ifdef OSGTSS_HAVE_MJCF
+
+TEST_CASE("a mesh without a name is called as its file, whichever way its path is written") {
+    for (const std::string path : {"else/where/part.stl", "C:\\else\\part.stl"})
+        for (const std::string type : {"mesh", "sdf"}) {
+            const std::string text = "<mujoco><compiler strippath='true' meshdir='m'/><asset><mesh file='" +
+                                     path + "'/></asset><worldbody><body><geom type='" + type +
+                                     "' mesh='part'/></body></worldbody></mujoco>";
+            const Robot robot = readMjcf(text, "arm.xml", [](const std::string&) { return ""; });
+            CHECK(robot.links[0].collision[0].file == "m/part.stl");
+            CHECK(hasNote(robot.notes, "sdf geoms, which are taken as the meshes") == (type == "sdf"));
+        }
+}
+
+#endif

@@ -160,16 +160,6 @@ TEST_CASE("the class at the top holds for all, whatever it is called and in howe
     CHECK(size(top, "<geom class='small' size='3 1'/>").isApprox(Vec3(6, 2, 6)));
 }
 
-TEST_CASE("a mesh without a name is called as its file, whichever way its path is written") {
-    for (const char* path : {"else/where/part.stl", "C:\\else\\part.stl"}) {
-        const Robot robot = readMjcf(modelOf("<compiler strippath='true' meshdir='m'/><asset><mesh file='" +
-                                             std::string(path) + "'/></asset>" +
-                                             world("<body><geom type='mesh' mesh='part'/></body>")),
-                                     "arm.xml", noOthers);
-        CHECK(robot.links[0].collision[0].file == "m/part.stl");
-    }
-}
-
 TEST_CASE("bodies without a name take none that another has") {
     const RobotScene robot =
         made(modelOf(world("<body name='a'>" + ball + "<body>" + ball + "<body name='body1'>" + ball +
