@@ -166,18 +166,31 @@ void writeOriginalName(Prim& prim, const std::string& name, bool named) {
     if (!data.empty()) prim.metadata["customData"] = std::move(data);
 }
 
-std::vector<Xform> worldXforms(const SceneReading& reading) {
+std::vector<Xform> worldXforms(const SceneReading& reading, std::vector<std::string>* unplaced) {
     std::vector<Xform> world;
+    std::vector<std::string> whys;
     for (std::size_t i = 0; i < reading.index.entries.size(); ++i) {
         const PrimReader prim = reading.reader(static_cast<int>(i));
         const int parent = reading.index.entries[i].parent;
-        Xform xform = localXform(prim);
-        if (parent >= 0 && !resetsXformStack(prim)) {
-            xform.matrix = world[parent].matrix * xform.matrix;
-            xform.rigid = world[parent].rigid && xform.rigid;
+        Xform xform;
+        std::string why;
+        try {
+            xform = localXform(prim);
+            if (parent >= 0 && !resetsXformStack(prim)) {
+                xform.matrix = world[parent].matrix * xform.matrix;
+                xform.rigid = world[parent].rigid && xform.rigid;
+                why = whys[parent];
+            }
+            if (why.empty() && !(std::abs(xform.matrix.linear().determinant()) > 0))
+                why = prim.place().path + ": expected a transform that can be inverted";
+        } catch (const InputError& error) {
+            if (!unplaced) throw;
+            why = error.where.path + ": " + error.message;
         }
         world.push_back(xform);
+        whys.push_back(std::move(why));
     }
+    if (unplaced) *unplaced = std::move(whys);
     return world;
 }
 

@@ -46,8 +46,9 @@ void writeOriginalName(Prim& prim, const std::string& name, bool named = true);
 
 void readBodies(SceneReading& reading);
 void writeBodies(Layer& layer, const SceneModel& scene);
-/// Transforms to the world, one per entry.
-std::vector<Xform> worldXforms(const SceneReading& reading);
+/// Transforms to the world, one per entry. unplaced: receives, one per entry, why it has none that can be
+/// inverted, empty where it has; without it what is wrong with one is a problem.
+std::vector<Xform> worldXforms(const SceneReading& reading, std::vector<std::string>* unplaced = nullptr);
 /// The faces of a Mesh cut into triangles, its points stretched.
 TriangleMesh readMesh(const PrimReader& prim, const SplitXform& xform);
 std::vector<SchemaType> bodySchemas();

@@ -80,7 +80,20 @@ void dropLostOperations(Prim& prim, const std::string& path, LeftOut& leftOut) {
     });
 }
 
-void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftOut& leftOut) {
+/// Of a number that does not fit the property stays as it is: who reads it says so.
+void adaptType(Property& property, const ValueType& wanted) {
+    Property adapted = property;
+    Problems problems("");
+    try {
+        adapted.typeName = wanted.name;
+        if (adapted.defaultValue) conform(*adapted.defaultValue, wanted, {}, problems);
+        for (Property::Sample& sample : adapted.timeSamples) conform(sample.value, wanted, {}, problems);
+        property = std::move(adapted);
+    } catch (const InputError&) {
+    }
+}
+
+void adapt(Prim& prim, const std::string& parent, LeftOut& leftOut) {
     const std::string path = parent + "/" + prim.name;
     dropLostOperations(prim, path, leftOut);
     for (auto& [name, property] : prim.properties) {
@@ -88,14 +101,8 @@ void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftO
         if (!type || property.isRelationship()) continue;
         const std::string_view wanted =
             name.starts_with("xformOp:") ? operationType(*type) : schemaType(name);
-        if (!wanted.empty() && property.typeName != wanted && sameForm(*type, *valueType(wanted))) {
-            Problems problems(file);
-            property.typeName = wanted;
-            if (property.defaultValue)
-                conform(*property.defaultValue, *valueType(wanted), {"", path + "." + name}, problems);
-            for (Property::Sample& sample : property.timeSamples)
-                conform(sample.value, *valueType(wanted), {"", path + "." + name}, problems);
-        }
+        if (!wanted.empty() && property.typeName != wanted && sameForm(*type, *valueType(wanted)))
+            adaptType(property, *valueType(wanted));
         if (!property.typeName.starts_with("quat")) continue;
         bool changed = property.defaultValue && normalize(*property.defaultValue);
         for (Property::Sample& sample : property.timeSamples) changed = normalize(sample.value) || changed;
@@ -103,13 +110,13 @@ void adapt(Prim& prim, const std::string& parent, const std::string& file, LeftO
             leftOut.add("quaternions of another length than 1 are taken as the turn they are",
                         path + "." + name);
     }
-    for (Prim& child : prim.children) adapt(child, path, file, leftOut);
+    for (Prim& child : prim.children) adapt(child, path, leftOut);
 }
 
 } // namespace
 
-void adaptTypes(Layer& layer, const std::string& file, LeftOut& leftOut) {
-    for (Prim& prim : layer.children) adapt(prim, "", file, leftOut);
+void adaptTypes(Layer& layer, LeftOut& leftOut) {
+    for (Prim& prim : layer.children) adapt(prim, "", leftOut);
 }
 
 } // namespace tss

@@ -102,7 +102,7 @@ public:
             const PrimReader prim = reading_.reader(static_cast<int>(i));
             const std::string& type = prim.prim().typeName;
             if (isJoint(prim.prim()))
-                readEdge(prim);
+                tryEdge(prim);
             else if (type.find("Joint") != type.npos)
                 leftOut_.add("left out: " + type + "s, which tie nothing here", prim.place().path);
         }
@@ -112,6 +112,17 @@ public:
     }
 
 private:
+    /// One that cannot be read costs itself alone.
+    void tryEdge(const PrimReader& prim) {
+        try {
+            readEdge(prim);
+        } catch (const InputError& error) {
+            const std::string& path = prim.place().path;
+            leftOut_.add("left out: joints that cannot be read, which tie nothing",
+                         path + " (" + messageBelow(path, error) + ")");
+        }
+    }
+
     void readEdge(const PrimReader& prim) {
         const std::string path = prim.place().path;
         if (!prim.flag(schema::jointEnabled, true))

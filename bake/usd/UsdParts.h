@@ -33,11 +33,14 @@ private:
     std::map<std::string, std::vector<std::string>> names_;
 };
 
+/// What is wrong with a prim or one of its properties: the message, after the property's name.
+std::string messageBelow(const std::string& prim, const InputError& error);
+
 /// What others write of UsdPhysics' and UsdGeom's attributes in another type of as many numbers, as in
 /// `float3 physics:localPos0`, `point3f xformOp:translate` or `double physics:lowerLimit`, in the type of the
 /// schema; quaternions of any length but 0 as ones of length 1, noted; operations in xformOpOrder that have
-/// no property left out, noted. Throws InputError with the path where a number does not fit.
-void adaptTypes(Layer& layer, const std::string& file, LeftOut& leftOut);
+/// no property left out, noted. Where a number does not fit, the type stays.
+void adaptTypes(Layer& layer, LeftOut& leftOut);
 
 /// Where the end of a joint is: a link (-1: the world), and the prim's frame in the link's. Points of the
 /// prim may be stretched on their way.

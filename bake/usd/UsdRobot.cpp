@@ -13,11 +13,20 @@ constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
     kinematic{"physics:kinematicEnabled", "bool"}, approximation{"physics:approximation", "token", true},
     filtered{"physics:filteredPairs", "rel"}, prototypes{"prototypes", "rel"};
 
+/// Empty also for what is no path, which is said where the joint is read.
+std::string bodyPathOf(const PrimReader& joint, const Attribute& body) {
+    try {
+        return joint.target(body);
+    } catch (const InputError&) {
+        return "";
+    }
+}
+
 class Reader {
 public:
     Reader(const UsdStage& stage, const std::string& file)
         : problems_(file), reading_(stage.layer, problems_), entries_(reading_.index.entries),
-          colliders_(reading_), world_(worldXforms(reading_)) {
+          colliders_(reading_), world_(worldXforms(reading_, &unplaced_)) {
         robot_.file = file;
         robot_.notes = stage.notes;
     }
@@ -95,9 +104,8 @@ private:
         return static_cast<int>(robot_.links.size()) - 1;
     }
 
-    void expectInvertible(std::size_t entry) const {
-        if (!(std::abs(world_[entry].matrix.linear().determinant()) > 0))
-            problems_.add(entries_[entry].place, "expected a transform that can be inverted");
+    void expectPlaced(std::size_t entry) const {
+        if (!unplaced_[entry].empty()) problems_.add(entries_[entry].place, unplaced_[entry]);
     }
 
     /// Rigid bodies, and prims of none that a joint ties a body to.
@@ -115,7 +123,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             if (!isJoint(*entries_[i].prim)) continue;
             for (const Attribute& body : {schema::body0, schema::body1}) {
-                const std::string path = reader(i).target(body);
+                const std::string path = bodyPathOf(reader(i), body);
                 int at = path.empty() ? -1 : reading_.index.find(path);
                 if (at < 0 || holdsBodies[at]) continue;
                 bool within = false;
@@ -127,8 +135,8 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const int parent = entries_[i].parent;
             if (starts[i])
-                expectInvertible(i), linkOf_[i] = addLink(pathOf(i), world_[i].matrix),
-                                     fixed_.push_back(!rigid_[i]);
+                expectPlaced(i), linkOf_[i] = addLink(pathOf(i), world_[i].matrix),
+                                 fixed_.push_back(!rigid_[i]);
             else if (parent >= 0 && !isJoint(*entries_[i].prim))
                 linkOf_[i] = linkOf_[parent];
         }
@@ -156,7 +164,10 @@ private:
                              pathOf(i));
                 continue;
             }
-            expectInvertible(i);
+            if (link < 0 && !physics && !unplaced_[i].empty()) {
+                leftOut_.add("left out: meshes without a place", unplaced_[i]);
+                continue;
+            }
             if (link < 0 && !physics) link = addLink(pathOf(i), world_[i].matrix), fixed_.push_back(false);
             addShape(i, link, collider);
         }
@@ -185,12 +196,10 @@ private:
         RobotShape shape;
         shape.where = pathOf(entry);
         try {
+            if (!unplaced_[entry].empty()) throw InputError(unplaced_[entry]);
             shape.mesh = std::make_shared<const TriangleMesh>(meshOfGprim(prim, place));
         } catch (const InputError& error) {
-            const std::string& path = error.where.path;
-            shape.problem =
-                (path.starts_with(shape.where + ".") ? path.substr(shape.where.size() + 1) + ": " : "") +
-                error.message;
+            shape.problem = messageBelow(shape.where, error);
         }
         if (shape.mesh && shape.mesh->empty())
             return leftOut_.add("left out: meshes without faces", pathOf(entry));
@@ -255,7 +264,7 @@ private:
             prim.problem("expected the paths of bodies that are there, found \"" + path + "\"");
             return end;
         }
-        expectInvertible(entry);
+        expectPlaced(entry);
         if (linkOf_[entry] >= 0) end.link = linkOf_[entry];
         const Pose place = end.link >= 0 ? robot_.links[end.link].place : Pose::Identity();
         end.points = Eigen::Affine3d(place.inverse(Eigen::Isometry)) * world_[entry].matrix;
@@ -323,6 +332,7 @@ private:
     SceneReading reading_;
     const std::vector<PrimEntry>& entries_;
     Colliders colliders_;
+    std::vector<std::string> unplaced_; ///< by entry: why it has no place; empty where it has
     std::vector<Xform> world_;
     Robot robot_;
     LeftOut leftOut_;
@@ -348,10 +358,15 @@ void remarkUnused(const std::vector<Prim>& prims, const std::string& parent, Lef
 
 } // namespace
 
+std::string messageBelow(const std::string& prim, const InputError& error) {
+    const std::string& path = error.where.path;
+    return (path.starts_with(prim + ".") ? path.substr(prim.size() + 1) + ": " : "") + error.message;
+}
+
 Robot robotOf(UsdStage stage, const std::string& file) {
     try {
         LeftOut unused;
-        adaptTypes(stage.layer, file, unused);
+        adaptTypes(stage.layer, unused);
         remarkUnused(stage.layer.children, "", unused);
         Robot robot = Reader(stage, file).read();
         for (const std::string& note : unused.notes()) robot.notes.push_back(note);

@@ -15,35 +15,6 @@ const Body& bodyCalled(const SceneModel& scene, const std::string& name) {
     return scene.bodies[body];
 }
 
-/// Two boxes of 2 at x = 0 and x = 4 and a joint between them.
-std::string twoBoxes(const std::string& joint, const std::string& second = "") {
-    return R"usda(( defaultPrim = "R"
- metersPerUnit = 0.01
- upAxis = "Z" )
-def Xform "R" {
-    def Xform "a" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
-        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
-    }
-    def Xform "b" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
-        double3 xformOp:translate = (4, 0, 0)
-        uniform token[] xformOpOrder = ["xformOp:translate"]
-        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
-        )usda" +
-           second + "}\n" + joint + "}\n";
-}
-
-const char* const hinge = R"usda(
-    def PhysicsRevoluteJoint "j" {
-        rel physics:body0 = </R/a>
-        rel physics:body1 = </R/b>
-        uniform token physics:axis = "Z"
-        point3f physics:localPos0 = (2, 0, 0)
-        point3f physics:localPos1 = (-2, 0, 0)
-        float physics:lowerLimit = -30
-        float physics:upperLimit = 90
-    }
-)usda";
-
 } // namespace
 
 TEST_CASE("rigid bodies with colliders below them and a hinge are a scene with a pair") {
@@ -243,32 +214,6 @@ TEST_CASE("of a body with a shape that cannot be had nothing is made; what a gro
     CHECK(widthOf("def Cylinder_1 \"p\" " + api + "{ double height = 6 }") == Approx(6).epsilon(0.01));
     CHECK(widthOf("def Xform \"g\" " + api + "{ def Cube \"big\" { double size = 8 } }") == Approx(8));
     CHECK(widthOf("def Xform \"g\" { def Cube \"big\" { double size = 8 } }") == Approx(2)); // a visual
-}
-
-TEST_CASE("a joint with limits the wrong way round is left out by name, and the rest comes in") {
-    std::string reversed = hinge;
-    reversed.replace(reversed.find("lowerLimit = -30"), 16, "lowerLimit = 120");
-    const RobotScene made = robotScene(twoBoxes(reversed));
-    CHECK(made.scene.bodies.size() == 2);
-    CHECK(made.scene.joints.empty());
-    CHECK(hasNote(made.notes, "a lower limit above their upper one, which tie nothing: /R/j"));
-}
-
-TEST_CASE("joints that time or somebody else changes tie nothing, by name") {
-    std::string timed = hinge, moved = twoBoxes(hinge);
-    timed.replace(timed.find("float physics:upperLimit = 90"), 29,
-                  "float physics:upperLimit.timeSamples = { 0: 10, 24: 90 }");
-    const RobotScene later = robotScene(twoBoxes(timed));
-    CHECK(later.scene.joints.empty());
-    CHECK(hasNote(later.notes, "change in time, which tie nothing here: /R/j"));
-    for (const char* body : {"\"a\"", "\"b\""}) {
-        const auto at = moved.find("{", moved.find(std::string("Xform ") + body));
-        moved.insert(at + 1, "\nuniform bool physics:kinematicEnabled = 1\n");
-        const RobotScene robot = robotScene(moved);
-        const bool both = body == std::string("\"b\"");
-        CHECK(robot.scene.joints.empty() == both); // where one is, the other is moved by the joint
-        CHECK(hasNote(robot.notes, "kinematicEnabled), which tie nothing: /R/j") == both);
-    }
 }
 
 TEST_CASE("a joint that closes a loop is left out, the one outside of the articulation first") {

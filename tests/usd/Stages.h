@@ -65,3 +65,32 @@ inline double numberAt(const tss::UsdStage& stage, const std::string& path, cons
     if (!found || !found->defaultValue) FAIL("no value " << path << "." << property);
     return *found->defaultValue->as<double>();
 }
+
+/// Two boxes of 2 at x = 0 and x = 4 and a joint between them.
+inline std::string twoBoxes(const std::string& joint, const std::string& second = "") {
+    return R"usda(( defaultPrim = "R"
+ metersPerUnit = 0.01
+ upAxis = "Z" )
+def Xform "R" {
+    def Xform "a" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
+        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+    }
+    def Xform "b" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
+        double3 xformOp:translate = (4, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+        )usda" +
+           second + "}\n" + joint + "}\n";
+}
+
+inline const char* const hinge = R"usda(
+    def PhysicsRevoluteJoint "j" {
+        rel physics:body0 = </R/a>
+        rel physics:body1 = </R/b>
+        uniform token physics:axis = "Z"
+        point3f physics:localPos0 = (2, 0, 0)
+        point3f physics:localPos1 = (-2, 0, 0)
+        float physics:lowerLimit = -30
+        float physics:upperLimit = 90
+    }
+)usda";

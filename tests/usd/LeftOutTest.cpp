@@ -1,0 +1,81 @@
+// What of a stage of UsdPhysics is left out or taken otherwise, by name.
+#include "tests/usd/Stages.h"
+
+using namespace tss;
+
+TEST_CASE("a joint with limits the wrong way round is left out by name, and the rest comes in") {
+    std::string reversed = hinge;
+    reversed.replace(reversed.find("lowerLimit = -30"), 16, "lowerLimit = 120");
+    const RobotScene made = robotScene(twoBoxes(reversed));
+    CHECK(made.scene.bodies.size() == 2);
+    CHECK(made.scene.joints.empty());
+    CHECK(hasNote(made.notes, "a lower limit above their upper one, which tie nothing: /R/j"));
+}
+
+TEST_CASE("a joint that cannot be read is left out by name, and the rest comes in") {
+    const auto note = [](const std::string& was, const std::string& is, const std::string& words) {
+        std::string wrong = hinge;
+        wrong.replace(wrong.find("\"j\""), 3, "\"wrong\"").replace(wrong.find(was), was.size(), is);
+        const RobotScene made = robotScene(twoBoxes(wrong + hinge));
+        CHECK(made.scene.bodies.size() == 2);
+        REQUIRE(made.scene.joints.size() == 1);
+        CHECK(made.scene.joints[0].path == "/R/j");
+        INFO(words);
+        CHECK(hasNote(made.notes, "joints that cannot be read, which tie nothing: /R/wrong (" + words));
+    };
+    note("token physics:axis = \"Z\"", "token physics:axis = \"W\"",
+         "physics:axis: expected one of X, Y, Z, found \"W\")");
+    note("token physics:axis = \"Z\"", "string physics:axis = \"Z\"", "physics:axis: expected type token");
+    note("</R/b>", "</R/nobody>", "expected the paths of bodies that are there, found \"/R/nobody\")");
+    note("</R/b>", "[</R/b>, </R/a>]", "physics:body1: expected one path, found 2)");
+    note("rel physics:body1 = </R/b>", "string physics:body1 = \"/R/b\"", "physics:body1: expected a rel");
+    note("upperLimit = 90", "upperLimit = nan", "physics:upperLimit: expected a number, found nan)");
+    note("(2, 0, 0)", "(2, inf, 0)", "physics:localPos0: expected a finite number, found inf)");
+    note("point3f physics:localPos0 = (2, 0, 0)", "double3 physics:localPos0 = (1e300, 0, 0)",
+         "physics:localPos0: expected type point3f, found \"double3\")");
+    note("uniform token physics:axis", "quatf physics:localRot0 = (0, 0, 0, 0)\nuniform token physics:axis",
+         "physics:localRot0: expected a quaternion");
+}
+
+TEST_CASE("joints that time or somebody else changes tie nothing, by name") {
+    std::string timed = hinge, moved = twoBoxes(hinge);
+    timed.replace(timed.find("float physics:upperLimit = 90"), 29,
+                  "float physics:upperLimit.timeSamples = { 0: 10, 24: 90 }");
+    const RobotScene later = robotScene(twoBoxes(timed));
+    CHECK(later.scene.joints.empty());
+    CHECK(hasNote(later.notes, "change in time, which tie nothing here: /R/j"));
+    for (const char* body : {"\"a\"", "\"b\""}) {
+        const auto at = moved.find("{", moved.find(std::string("Xform ") + body));
+        moved.insert(at + 1, "\nuniform bool physics:kinematicEnabled = 1\n");
+        const RobotScene robot = robotScene(moved);
+        const bool both = body == std::string("\"b\"");
+        CHECK(robot.scene.joints.empty() == both); // where one is, the other is moved by the joint
+        CHECK(hasNote(robot.notes, "kinematicEnabled), which tie nothing: /R/j") == both);
+    }
+}
+
+TEST_CASE("a shape without a place costs its own body alone, and nothing where it is only seen") {
+    const auto sizeOf = [](const std::string& shape) {
+        const RobotScene made = robotScene(twoBoxes(hinge, shape));
+        CHECK(made.scene.joints.size() == 1);
+        const TriangleMesh& mesh = made.scene.bodies.at(1).mesh;
+        CHECK(hasNote(made.notes, "/R/b/x.xformOp") == mesh.empty());
+        return mesh.empty() ? 0 : bounds(mesh).sizes().x();
+    };
+    for (const std::string api : {"", "( prepend apiSchemas = [\"PhysicsCollisionAPI\"] )"}) {
+        const double size = api.empty() ? 2 : 0;
+        const std::string def = "def Xform \"x\" {\nuniform token[] xformOpOrder = ";
+        const std::string below = "\ndef Cube \"y\" " + api + " {} }\n";
+        CHECK(sizeOf(def + "[\"xformOp:scale\"]\nfloat3 xformOp:scale = (0, 0, 0)" + below) == size);
+        CHECK(sizeOf(def + "[\"xformOp:translate\"]\ndouble3 xformOp:translate = (nan, 0, 0)" + below) ==
+              size);
+        CHECK(sizeOf(def +
+                     "[\"xformOp:transform\"]\nmatrix4d xformOp:transform = ((1, 0, 0, 0), (0, 1, 0, 0), "
+                     "(0, 0, 1, 2), (0, 0, 0, 1))" +
+                     below) == size);
+    }
+    CHECK(hasNote(robotScene("def Cube \"a\" {}\ndef Cube \"b\" {\nfloat3 xformOp:scale = (1, 0, 1)\n"
+                             "uniform token[] xformOpOrder = [\"xformOp:scale\"] }")
+                      .notes,
+                  "left out: meshes without a place: /b.xformOp:scale: expected scales that are not 0"));
+}
