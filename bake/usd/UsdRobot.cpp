@@ -231,6 +231,12 @@ private:
             leftOut_.add(
                 "meshes whose surface USD subdivides (no subdivisionScheme \"none\"), taken as they are",
                 pathOf(entry));
+        if (const Property* holes = prim.property("holeIndices");
+            type == "Mesh" && holes && holes->defaultValue && *holes->defaultValue != Value(Value::Array()))
+            leftOut_.add(
+                "faces that are holes (holeIndices), taken as surface: what is proven holds, contact "
+                "may be reported in them",
+                pathOf(entry));
         for (const auto& [name, property] : prim.properties)
             if (!property.timeSamples.empty() && (name.starts_with("xformOp:") || name == "points")) {
                 leftOut_.add(

@@ -37,6 +37,18 @@ TEST_CASE("a joint that cannot be read is left out by name, and the rest comes i
          "physics:localRot0: expected a quaternion");
 }
 
+TEST_CASE("faces that are holes are surface, and it is said") {
+    const auto square = [](const std::string& holes) {
+        return robotScene("def Mesh \"m\" { uniform token subdivisionScheme = \"none\"\n" + holes +
+                          "point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]\n"
+                          "int[] faceVertexCounts = [3, 3]\nint[] faceVertexIndices = [0, 1, 2, 0, 2, 3] }");
+    };
+    const RobotScene made = square("int[] holeIndices = [1]\n");
+    CHECK(made.scene.bodies.at(0).mesh.triangles.size() == 2);
+    CHECK(hasNote(made.notes, "faces that are holes (holeIndices), taken as surface"));
+    CHECK_FALSE(hasNote(square("int[] holeIndices = []\n").notes, "holeIndices"));
+}
+
 TEST_CASE("joints that time or somebody else changes tie nothing, by name") {
     std::string timed = hinge, moved = twoBoxes(hinge);
     timed.replace(timed.find("float physics:upperLimit = 90"), 29,
