@@ -13,6 +13,14 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr Attribute excluded{"physics:excludeFromArticulation", "bool", true};
 
+/// Its value is coupled to another joint's, as "PhysxMimicJointAPI:rotX" and NewtonMimicAPI say.
+bool isCoupled(const Prim& joint) {
+    const auto schemas = joint.metadata.find("apiSchemas");
+    return schemas != joint.metadata.end() &&
+           std::ranges::any_of(listItems(schemas->second),
+                               [](const std::string& name) { return name.find("Mimic") != name.npos; });
+}
+
 Pose frameAt(const JointEnd& end, const PrimReader& prim, const Attribute& position,
              const Attribute& rotation) {
     Pose frame = Pose::Identity();
@@ -167,6 +175,8 @@ private:
             edge.joint.dofs.push_back(dof);
             if (moves) edge.joint.drives.push_back(read.drives[k]);
         }
+        if (isCoupled(prim.prim()))
+            leftOut_.add("not read: couplings of joints to others (mimic); each moves by itself", path);
         edges_.push_back(std::move(edge));
     }
 

@@ -91,3 +91,11 @@ TEST_CASE("a shape without a place costs its own body alone, and nothing where i
                       .notes,
                   "left out: meshes without a place: /b.xformOp:scale: expected scales that are not 0"));
 }
+
+TEST_CASE("a joint that is coupled to another moves by itself, and it is said") {
+    std::string coupled = hinge;
+    coupled.insert(coupled.find('{'), "( prepend apiSchemas = [\"PhysxMimicJointAPI:rotZ\"] ) ");
+    CHECK(hasNote(robotScene(twoBoxes(coupled)).notes,
+                  "couplings of joints to others (mimic); each moves by itself: /R/j"));
+    CHECK_FALSE(hasNote(robotScene(twoBoxes(hinge)).notes, "mimic"));
+}
