@@ -116,6 +116,29 @@ TEST_CASE("what is paged in later is no body, and is told of where there are joi
     CHECK(heard.times("/Tile") == 1);
 }
 
+TEST_CASE("surface that shaders make is told of where there are joints") {
+    const auto told = [](osg::PrimitiveSet* primitives) {
+        const osg::ref_ptr<osg::Geometry> drawn = odd::cube(primitives);
+        drawn->setName("Terrain");
+        const osg::ref_ptr<osg::Group> root = yard(drawn), still = new osg::Group;
+        still->addChild(drawn);
+        const Heard heard;
+        extract(*still);
+        CHECK(heard.times("shaders") == 0);
+        extract(*root);
+        CHECK(heard.times("/Terrain") == heard.times("what shaders make"));
+        return heard.times("what shaders make of patches, triangles with adjacency and instances is part of");
+    };
+    for (const GLenum mode : {osg::PrimitiveSet::PATCHES, osg::PrimitiveSet::TRIANGLES_ADJACENCY,
+                              osg::PrimitiveSet::TRIANGLE_STRIP_ADJACENCY}) {
+        CHECK(told(new osg::DrawArrays(mode, 0, 6)) == 1);
+        CHECK(told(new osg::DrawArrays(mode, 0, 0)) == 0);
+    }
+    CHECK(told(new osg::DrawArrays(GL_TRIANGLES, 0, 6, 1)) == 0);
+    CHECK(told(new osg::DrawArrays(GL_TRIANGLES, 0, 6, 2)) == 1);
+    CHECK(told(new osg::DrawArrays(osg::PrimitiveSet::LINES_ADJACENCY, 0, 4)) == 0);
+}
+
 TEST_CASE("what holds a cube is looked into, and what is drawn before the eye is not") {
     for (const auto& [name, holder] : odd::holders()) {
         CAPTURE(name);

@@ -120,6 +120,17 @@ std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geomet
     return std::move(corners.all);
 }
 
+bool drawsByShader(const osg::Drawable& drawable) {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    return geometry && std::ranges::any_of(geometry->getPrimitiveSetList(), [](const auto& primitives) {
+               if (!primitives || primitives->getNumIndices() == 0) return false;
+               const GLenum mode = primitives->getMode();
+               return mode == osg::PrimitiveSet::PATCHES || mode == osg::PrimitiveSet::TRIANGLES_ADJACENCY ||
+                      mode == osg::PrimitiveSet::TRIANGLE_STRIP_ADJACENCY ||
+                      primitives->getNumInstances() > 1;
+           });
+}
+
 std::size_t collectTriangles(const osg::Drawable& drawable, const osg::Matrixd& matrix, double scale,
                              tss::TriangleMesh& mesh) {
     if (shrunkToPoint(matrix)) return 0; // draws nothing

@@ -22,6 +22,10 @@ std::vector<osg::Vec3d> pointsOf(const osg::Geometry& geometry);
 /// The triangles of a geometry, by its vertices.
 std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geometry);
 
+/// It draws what trianglesOf() does not know: patches and triangles with their neighbours, which a shader
+/// makes surface of, or several instances, which one places.
+bool drawsByShader(const osg::Drawable& drawable);
+
 /// Of the upper 3x3 part: below 0 where the matrix mirrors.
 double determinant(const osg::Matrixd& matrix);
 

@@ -102,10 +102,15 @@ const tss::SceneModel& ConstraintVisitor::getModel() {
                    << "take long to bake: " << _turning
                    << "; limits=written takes the limits written in them, "
                    << "limits=NAME:rotZ:-24:18 gives others" << std::endl;
-    if (_pagings > 0 && !_model.joints.empty() && !_quiet)
-        OSG_WARN << "osgTSS: what is paged in later is part of no body, and tables do not know it: "
-                 << _paging << (_pagings > 1 ? " and " + std::to_string(_pagings - 1) + " more" : "")
-                 << "; expected what joints can reach in the graph when it is extracted" << std::endl;
+    const auto tell = [&](const Some& some, const char* what, const char* expected) {
+        if (some.count > 0 && !_model.joints.empty() && !_quiet)
+            OSG_WARN << "osgTSS: " << what << " is part of no body, and tables do not know it: " << some.first
+                     << (some.count > 1 ? " and " + std::to_string(some.count - 1) + " more" : "")
+                     << "; expected " << expected << std::endl;
+    };
+    tell(_paging, "what is paged in later", "what joints can reach in the graph when it is extracted");
+    tell(_shaded, "what shaders make of patches, triangles with adjacency and instances",
+         "triangles of their own, where joints can reach them");
     _soft->finish(_model, [&](const std::string& what) {
         if (!_quiet) OSG_WARN << "osgTSS: " << what << std::endl;
     });

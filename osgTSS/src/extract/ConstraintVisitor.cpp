@@ -172,7 +172,7 @@ void ConstraintVisitor::apply(osg::Billboard&) {}
 /// it at some distance.
 void ConstraintVisitor::traverseLevels(osg::LOD& node) {
     const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node);
-    if (paged && paged->getNumFileNames() > paged->getNumChildren() && _pagings++ == 0) _paging = pathText();
+    if (paged && paged->getNumFileNames() > paged->getNumChildren()) count(_paging);
     const unsigned int levels = std::min(node.getNumChildren(), node.getNumRanges());
     const bool pixels = node.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN;
     unsigned int finest = 0;
@@ -195,6 +195,7 @@ void ConstraintVisitor::apply(osg::Drawable& drawable) {
     if (!begin(drawable)) return;
     const auto* text = dynamic_cast<const osgText::TextBase*>(&drawable);
     if (text && text->getAutoRotateToScreen()) return; // as an osg::AutoTransform
+    if (drawsByShader(drawable)) count(_shaded);
     const PlaceInBody place = _place;
     enter(drawable, place);
     if (addSoft(drawable)) return;
@@ -343,6 +344,10 @@ std::string ConstraintVisitor::pathText() const {
     for (const osg::Node* node : getNodePath())
         text += "/" + (node->getName().empty() ? std::string(node->className()) : node->getName());
     return text;
+}
+
+void ConstraintVisitor::count(Some& some) const {
+    if (some.count++ == 0) some.first = pathText();
 }
 
 void ConstraintVisitor::warn(const std::string& why) const {
