@@ -1,4 +1,4 @@
-#include "DotOsg.h"
+#include "OldFormats.h"
 #include "SceneCache.h"
 #include "UserValues.h"
 
@@ -19,7 +19,7 @@ Scene::~Scene() = default;
 
 Scene::Scene(std::shared_ptr<const tss::SceneModel> model, Clock::Source source)
     : _model(std::move(model)), _clock(*_model, source), _cache(std::make_shared<Cache>(_model)) {
-    warnOfDotOsg();
+    warnOfOldFormats();
 }
 
 Scene::Scene(const Scene& other, const osg::CopyOp& copyop)
