@@ -23,6 +23,7 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -99,22 +100,25 @@ bool isBaked(const tss::SkinModel& skin) {
     return bool(skin.table);
 }
 
-/// Tables and proofs of an earlier bake that still fit. Returns how many.
+/// Tables and proofs of an earlier bake that still fit, whatever their pairs are called: joints without names
+/// are numbered, and a file may have them in another order since. Returns how many.
 std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
     std::error_code failed;
     if (file.empty() || !std::filesystem::exists(file, failed)) return 0;
     std::size_t taken = 0;
     const auto take = [&](auto& all, const auto& cached) {
-        for (auto& item : all)
-            for (const auto& old : cached) {
-                if (old.path != item.path || !isBaked(old) || old.settings != item.settings ||
-                    old.sourceHash != tss::sourceHash(model, item))
-                    continue;
-                item.table = old.table;
-                if constexpr (requires { item.proof; }) item.proof = old.proof;
-                item.sourceHash = old.sourceHash;
-                ++taken;
-            }
+        std::map<std::string, std::size_t> madeOf;
+        for (std::size_t k = 0; k < cached.size(); ++k)
+            if (isBaked(cached[k])) madeOf.emplace(cached[k].sourceHash, k);
+        for (auto& item : all) {
+            const auto made = madeOf.find(tss::sourceHash(model, item));
+            if (made == madeOf.end()) continue;
+            const auto& old = cached[made->second];
+            item.table = old.table;
+            if constexpr (requires { item.proof; }) item.proof = old.proof;
+            item.sourceHash = old.sourceHash;
+            ++taken;
+        }
     };
     try {
         const tss::SceneModel cached = tss::loadScene(file);

@@ -1,5 +1,6 @@
 // What an application changes in a graph with tables so that nodes and their names stay: vertices, what
 // stands above a joint, what moves a part.
+#include "Files.h"
 #include "Heard.h"
 #include "Nodes.h"
 #include "Playback.h"
@@ -8,6 +9,7 @@
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/ShapeDrawable>
+#include <osgTSS/Bake>
 #include <osgTSS/Install>
 
 using namespace osgTSS;
@@ -109,4 +111,33 @@ TEST_CASE("a part of a body that a callback moves since install is told of") {
     ChangedYard yard;
     yard.block->addUpdateCallback(new Drift);
     CHECK(yard.told("transform \"Block\" stands elsewhere") == 1);
+}
+
+TEST_CASE("joints without names are known by what they join, in whatever order they come") {
+    const auto arm = [](float size) {
+        const osg::ref_ptr<osgSim::DOFTransform> slide = nodes::dof("");
+        slide->setMaxTranslate(osg::Vec3(3, 0, 0));
+        slide->addChild(nodes::box(osg::Vec3(0, 10 * size, 0), size));
+        return slide;
+    };
+    const auto yard = [&](const std::vector<float>& sizes) {
+        const osg::ref_ptr<osg::Group> root = new osg::Group;
+        root->setName("Yard");
+        for (const float size : {0.2f, 0.3f}) root->addChild(nodes::box(osg::Vec3(2, 10 * size, 0), size));
+        for (const float size : sizes) root->addChild(arm(size));
+        return root;
+    };
+    const std::string cache = (files::scratch() / "nameless.tss").string();
+    std::filesystem::remove(cache);
+    const BakeOptions options("tolerance=0.1 cache=" + cache);
+    const osg::ref_ptr<osg::Group> first = yard({0.2f, 0.3f}), swapped = yard({0.3f, 0.2f});
+    const osg::ref_ptr<Scene> baked = bake(*first, options);
+    REQUIRE(install(*first, *baked).joints == 2);
+    const Heard heard;
+    bake(*swapped, options);
+    CHECK(heard.times("2 of 2 pairs and skins are as baked") == 1);
+    const Installed installed = install(*swapped, *baked);
+    CHECK(installed.joints == 2);
+    CHECK(installed.stale == 0);
+    CHECK(heard.times("osgTSS: pair") == 0);
 }

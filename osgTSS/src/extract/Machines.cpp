@@ -43,8 +43,9 @@ const Machines::Extraction& Machines::extraction(bool activeOnly) {
     return *made;
 }
 
-/// Found joints that may be the model's: of the nodes that carry its path, or else of its name.
-std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
+/// Found joints that may be the model's: of the nodes that carry its path, or else of its name or, nameless,
+/// of none.
+std::vector<int> Machines::candidates(const Extraction& in, int joint, bool nameless) const {
     const std::vector<osg::Node*>& nodes = in.visitor.getJointNodes();
     const std::string& path = _model.joints[joint].path;
     std::vector<int> found;
@@ -61,9 +62,14 @@ std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
                 std::ranges::find(tagged->second, nodes[j]) != tagged->second.end())
                 found.push_back(static_cast<int>(j));
     }
+    const auto isFree = [&](const osg::Node* node) {
+        const auto placed = _placed.find(node);
+        return placed == _placed.end() || placed->second.contains(path);
+    };
     for (std::size_t j = 0; j < nodes.size(); ++j) {
         const std::string& name = in.found->joints[j].path;
-        const bool same = name == path || (!_modelJoints.contains(name) && sameKind(name, path));
+        const bool same = name == path || (!_modelJoints.contains(name) && sameKind(name, path)) ||
+                          (nameless && nodes[j]->getName().empty() && isFree(nodes[j]));
         if (same && std::ranges::find(found, static_cast<int>(j)) == found.end())
             found.push_back(static_cast<int>(j));
     }
@@ -71,11 +77,11 @@ std::vector<int> Machines::candidates(const Extraction& in, int joint) const {
 }
 
 /// All chains of candidates of the pair's joints that hang on each other.
-void Machines::extend(const Extraction& in, const tss::Pair& pair, std::vector<int>& chain,
+void Machines::extend(const Extraction& in, const tss::Pair& pair, bool nameless, std::vector<int>& chain,
                       std::vector<std::vector<int>>& chains) const {
     constexpr std::size_t most = 10000;
     if (chain.size() == pair.joints.size()) return chains.push_back(chain);
-    for (int next : candidates(in, pair.joints[chain.size()])) {
+    for (int next : candidates(in, pair.joints[chain.size()], nameless)) {
         if (chains.size() >= most) return;
         if (!chain.empty()) {
             const tss::Joint &a = in.found->joints[chain.back()], &b = in.found->joints[next];
@@ -83,7 +89,7 @@ void Machines::extend(const Extraction& in, const tss::Pair& pair, std::vector<i
             if (!touch || std::ranges::find(chain, next) != chain.end()) continue;
         }
         chain.push_back(next);
-        extend(in, pair, chain, chains);
+        extend(in, pair, nameless, chain, chains);
         chain.pop_back();
     }
 }
@@ -112,7 +118,7 @@ std::string Machines::unfit(const Extraction& in, const tss::Pair& pair,
     return whyUnfit(*in.found, chain, _model, pair);
 }
 
-std::vector<PairPlace> Machines::placesOf(int index, std::string& why) {
+std::vector<PairPlace> Machines::placesOf(int index, std::string& why, bool nameless) {
     const tss::Pair& pair = _model.pairs[index];
     std::vector<PairPlace> places;
     why = "no nodes of the graph carry its joints";
@@ -122,7 +128,7 @@ std::vector<PairPlace> Machines::placesOf(int index, std::string& why) {
         const Extraction& in = extraction(activeOnly);
         std::vector<int> chain;
         std::vector<std::vector<int>> chains;
-        extend(in, pair, chain, chains);
+        extend(in, pair, nameless, chain, chains);
         for (const std::vector<int>& found : chains) {
             const std::string not_ = unfit(in, pair, found);
             if (!not_.empty()) {
@@ -164,7 +170,7 @@ std::vector<std::string> Machines::unknown() {
     return lines;
 }
 
-void Machines::tag(const PairPlace& place) const {
+void Machines::tag(const PairPlace& place) {
     const tss::Pair& pair = _model.pairs[place.pair];
     const Extraction& in = *_all;
     const std::vector<osg::Node*>& nodes = in.visitor.getJointNodes();
@@ -174,6 +180,7 @@ void Machines::tag(const PairPlace& place) const {
     };
     for (std::size_t k = 0; k < place.joints.size(); ++k) {
         const tss::Joint& joint = _model.joints[pair.joints[k]];
+        _placed[place.joints[k]].insert(joint.path);
         if (const auto tagged = _tagged.find(joint.path);
             tagged != _tagged.end() &&
             std::ranges::find(tagged->second, place.joints[k]) != tagged->second.end())

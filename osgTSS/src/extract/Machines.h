@@ -4,7 +4,9 @@
 #include <osg/Node>
 #include <osgTSS/ConstraintVisitor>
 
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,11 +25,12 @@ class Machines {
 public:
     Machines(osg::Node& root, const tss::SceneModel& model);
 
-    /// Every place of the pair; where there is none `why` says the reason.
-    std::vector<PairPlace> placesOf(int pair, std::string& why);
+    /// Every place of the pair; where there is none `why` says the reason. nameless: also of nodes without a
+    /// name that are nothing yet that was tagged, as joints without names are numbered in the graph's order.
+    std::vector<PairPlace> placesOf(int pair, std::string& why, bool nameless = false);
 
     /// Names the joints and the bodies of a place by the model's paths.
-    void tag(const PairPlace& place) const;
+    void tag(const PairPlace& place);
 
     /// What of the graph the tables and proofs do not know, a line each: pairs whose joints are there but fit
     /// nowhere, and joints that the graph shows several times.
@@ -41,8 +44,8 @@ private:
     };
 
     const Extraction& extraction(bool activeOnly);
-    std::vector<int> candidates(const Extraction& in, int joint) const;
-    void extend(const Extraction& in, const tss::Pair& pair, std::vector<int>& chain,
+    std::vector<int> candidates(const Extraction& in, int joint, bool nameless) const;
+    void extend(const Extraction& in, const tss::Pair& pair, bool nameless, std::vector<int>& chain,
                 std::vector<std::vector<int>>& chains) const;
     std::string unfit(const Extraction& in, const tss::Pair& pair, const std::vector<int>& chain) const;
 
@@ -50,7 +53,8 @@ private:
     const tss::SceneModel& _model;
     std::unique_ptr<Extraction> _all, _active;
     std::map<std::string, std::vector<osg::Node*>> _tagged;
-    std::map<std::string, int> _modelJoints; ///< by path
+    std::map<std::string, int> _modelJoints;                   ///< by path
+    std::map<const osg::Node*, std::set<std::string>> _placed; ///< paths of the joints that tag() named
 };
 
 } // namespace osgTSS

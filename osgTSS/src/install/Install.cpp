@@ -133,24 +133,28 @@ Installed install(osg::Node& root, Scene& scene) {
     Installed installed;
     Machines machines(root, model);
     std::vector<PairPlace> kept;
-    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-        const tss::Pair& pair = model.pairs[p];
-        if (!pair.proof && !pair.table) {
-            ++installed.unbaked;
-            continue;
-        }
+    const auto place = [&](int p, bool nameless) {
         std::string why;
-        const std::vector<PairPlace> places = machines.placesOf(static_cast<int>(p), why);
-        if (places.empty()) {
-            ++installed.stale;
-            OSG_WARN << "osgTSS: pair " << pair.path << " is not kept apart: " << why << std::endl;
-            continue;
+        const std::vector<PairPlace> places = machines.placesOf(p, why, nameless);
+        for (const PairPlace& found : places) {
+            machines.tag(found);
+            if (model.pairs[p].table) kept.push_back(found);
         }
-        for (const PairPlace& place : places) {
-            machines.tag(place);
-            if (pair.table) kept.push_back(place);
-        }
-        if (pair.proof) ++installed.proven;
+        if (!places.empty() && model.pairs[p].proof) ++installed.proven;
+        return places.empty() ? why : "";
+    };
+    std::vector<int> missed; // once all that have their names are placed, among what has none
+    for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+        if (!model.pairs[p].proof && !model.pairs[p].table)
+            ++installed.unbaked;
+        else if (!place(static_cast<int>(p), false).empty())
+            missed.push_back(static_cast<int>(p));
+    }
+    for (const int p : missed) {
+        const std::string why = place(p, true);
+        if (why.empty()) continue;
+        ++installed.stale;
+        OSG_WARN << "osgTSS: pair " << model.pairs[p].path << " is not kept apart: " << why << std::endl;
     }
     for (const auto& group : grouped(kept)) installGroup(root, scene, group, installed);
     if (!kept.empty() || installed.proven > 0) {
