@@ -1,4 +1,4 @@
-#include "bake/tool/Summary.h"
+#include "bake/tool/BakeTimes.h"
 
 #include <sys/xattr.h>
 

@@ -2,8 +2,7 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/model/SceneModel.h"
 #include "bake/pipeline/Bake.h"
-#include "bake/tool/Command.h"
-#include "bake/tool/Summary.h"
+#include "bake/tool/BakeTimes.h"
 
 #include <memory>
 

@@ -1,8 +1,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/Command.h"
-#include "bake/tool/Summary.h"
+#include "bake/tool/BakeTimes.h"
 
 namespace tss::tool {
 
