@@ -1,10 +1,14 @@
 #include "bake/tool/SceneMotion.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Stopwatch.h"
+#include "bake/model/Kinematics.h"
+#include "bake/play/Player.h"
 #include "bake/tool/CsvTable.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <functional>
 
 namespace tss::tool {
@@ -18,7 +22,7 @@ struct Track {
     std::function<double(double)> fromUser;
 };
 
-/// All of a scene, each without samples.
+/// Removes the samples of all drives and activations of a scene, and returns these to be filled again.
 std::vector<Track> clearedTracks(SceneModel& scene) {
     const DofColumns columns = dofColumns(scene);
     std::vector<Track> tracks;
@@ -37,7 +41,7 @@ std::vector<Track> clearedTracks(SceneModel& scene) {
     return tracks;
 }
 
-/// The track of each column but that of the time.
+/// The track that each column from the `first` on drives. Throws InputError for a name that is no track's.
 std::vector<const Track*> columnsOf(const std::vector<Track>& tracks, const std::vector<std::string>& header,
                                     std::size_t first, const std::string& file) {
     std::vector<const Track*> columns;
@@ -65,28 +69,63 @@ void applyMotion(SceneModel& scene, const std::string& file) {
     const std::vector<Track> tracks = clearedTracks(scene);
     const bool seconds = !csv.header.empty() && isTime(csv.header[0]),
                timed = seconds || (!csv.header.empty() && isStep(csv.header[0]));
+    const std::size_t first = timed ? 1 : 0; // column that drives something
     std::vector<const Track*> columns;
     if (csv.header.empty())
         for (const Track& track : tracks) columns.push_back(&track);
     else
-        columns = columnsOf(tracks, csv.header, timed, file);
-    double before = 0;
+        columns = columnsOf(tracks, csv.header, first, file);
     for (std::size_t r = 0; r < csv.rows.size(); ++r) {
         const std::vector<double>& row = csv.rows[r];
-        if (row.size() != columns.size() + timed)
-            throw InputError(Where{file}, "expected " + std::to_string(columns.size() + timed) +
+        if (row.size() != columns.size() + first)
+            throw InputError(Where{file}, "expected " + std::to_string(columns.size() + first) +
                                               " columns, found " + std::to_string(row.size()));
         const double time = !timed    ? static_cast<double>(r)
                             : seconds ? row[0] * scene.timeCodesPerSecond
                                       : row[0];
-        if (r > 0 && !(time > before)) throw InputError(Where{file}, "expected times that rise");
-        before = time;
+        if (r > 0 && !(time > scene.endTimeCode)) throw InputError(Where{file}, "expected times that rise");
         if (r == 0) scene.startTimeCode = time;
         scene.endTimeCode = time;
         for (std::size_t k = 0; k < columns.size(); ++k) {
             columns[k]->samples->times.push_back(time);
-            columns[k]->samples->values.push_back(columns[k]->fromUser(row[k + timed]));
+            columns[k]->samples->values.push_back(columns[k]->fromUser(row[k + first]));
         }
+    }
+}
+
+std::vector<std::vector<double>> drivenSteps(const SceneModel& scene) {
+    constexpr double most = 1e7;
+    if (scene.endTimeCode - scene.startTimeCode > most)
+        throw InputError(
+            fmt::format("the motion goes over {:.3g} time codes, a step each; expected at most {:g}",
+                        scene.endTimeCode - scene.startTimeCode, most));
+    std::vector<std::vector<double>> steps;
+    for (int k = 0; scene.startTimeCode + k <= scene.endTimeCode; ++k)
+        steps.push_back(drivenValues(scene, scene.startTimeCode + k));
+    return steps;
+}
+
+void addResiduals(Json& summary, const SceneModel& scene) {
+    constexpr double patience = 20; // seconds
+    const bool baked =
+        std::ranges::any_of(scene.skins, [](const SkinModel& skin) { return skin.table != nullptr; });
+    if (!baked) return;
+    const auto steps = drivenSteps(scene);
+    if (steps.size() < 2) return;
+    std::vector<std::string> warnings; // of the pairs; `tss play` tells them
+    Player player(scene, warnings);
+    std::vector<double> deepest(scene.skins.size(), 0);
+    std::size_t done = 0;
+    const Stopwatch watch;
+    while (done < steps.size() && watch.seconds() < patience) {
+        const auto depths = player.step(steps[done], scene.startTimeCode + double(done)).residualDepths;
+        for (std::size_t k = 0; k < depths.size(); ++k) deepest[k] = std::max(deepest[k], depths[k]);
+        ++done;
+    }
+    for (std::size_t k = 0; k < scene.skins.size(); ++k) {
+        if (!scene.skins[k].table) continue;
+        summary["skins"][k]["residual"] = deepest[k];
+        summary["skins"][k]["residualSteps"] = done;
     }
 }
 
