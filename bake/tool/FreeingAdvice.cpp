@@ -36,20 +36,45 @@ std::string ofDof(const Dof& dof) {
     return name.empty() ? "" : " of " + name;
 }
 
-/// How the scene was made, as far as that can be told, which decides what options of `tss make` move B.
-enum class Form { TwoMeshes, Joint, None };
+/// The options of `tss make` that can say where B lies: --b-offset and --dof, a --joint, or, where it is not
+/// known that the scene was made by either, --offset.
+enum class MadeBy { TwoMeshes, Joint, Unknown };
 
-Form formOf(const SceneModel& scene, const Pair& pair) {
+MadeBy madeBy(const SceneModel& scene, const Pair& pair) {
     const auto parsed = [&](int joint) {
         const std::vector<Dof>& dofs = scene.joints[joint].dofs;
         return std::ranges::all_of(dofs, [](const Dof& dof) { return isParsedName(dof.name); });
     };
     const auto solid = std::ranges::count_if(scene.bodies, [](const Body& b) { return !b.mesh.empty(); });
     if (pair.joints.size() == scene.joints.size() && solid == 2 && std::ranges::all_of(pair.joints, parsed))
-        return Form::TwoMeshes;
-    const bool asMade = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
-    return asMade && pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA ? Form::Joint
-                                                                                                 : Form::None;
+        return MadeBy::TwoMeshes;
+    const bool upright = scene.bodies[pair.bodyA].placement.linear().isIdentity(1e-6);
+    const bool oneJoint = pair.joints.size() == 1 && scene.joints[pair.joints[0]].body0 == pair.bodyA;
+    return upright && oneJoint ? MadeBy::Joint : MadeBy::Unknown;
+}
+
+/// Limits that go a little past each stop of the move, so that it is contact that ends the motion; a turn is
+/// widened to no more than a whole one.
+Motion widened(const FreeingMove& move, const Motion& before) {
+    Motion wider = move.motion;
+    for (const StopBeyond& stop : move.beyond) {
+        const Dof& dof = before.dofs[stop.dof];
+        const double more = 0.05 * (dof.upper - dof.lower);
+        if (stop.value < dof.lower)
+            wider.dofs[stop.dof].lower = stop.value - more;
+        else
+            wider.dofs[stop.dof].upper = stop.value + more;
+    }
+    for (std::size_t k = 0; k < wider.dofs.size(); ++k) {
+        Dof& dof = wider.dofs[k];
+        const double excess = dof.upper - dof.lower - 2 * std::numbers::pi;
+        if (dof.kind != DofKind::Rotation || !(excess > 0)) continue;
+        const bool loweredLimit = before.dofs[k].lower > dof.lower;
+        const bool raisedLimit = before.dofs[k].upper < dof.upper;
+        if (loweredLimit) dof.lower += excess / (raisedLimit ? 2 : 1);
+        if (raisedLimit) dof.upper -= excess / (loweredLimit ? 2 : 1);
+    }
+    return wider;
 }
 
 class Adviser {
@@ -59,17 +84,18 @@ public:
           a_(originalName(scene.bodies[pair.bodyA])), b_(originalName(scene.bodies[pair.bodyB])) {
         // In scenes that `tss make` made, B has the axes of A and is moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
-        if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) form_ = formOf(scene, pair);
-        if (form_ != Form::None) already_ = atZero.translation();
-        if (form_ == Form::TwoMeshes) a_ = 'A', b_ = 'B';
-        dofs_ = form_ != Form::None &&
-                std::ranges::none_of(motion_.dofs, [](const Dof& dof) { return dof.kind == DofKind::Path; });
+        if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) madeBy_ = madeBy(scene, pair);
+        if (madeBy_ != MadeBy::Unknown) offset_ = atZero.translation();
+        if (madeBy_ == MadeBy::TwoMeshes) a_ = 'A', b_ = 'B';
+        canSayDofs_ = madeBy_ != MadeBy::Unknown && std::ranges::none_of(motion_.dofs, [](const Dof& dof) {
+                          return dof.kind == DofKind::Path;
+                      });
     }
 
     Json say(const TriangleMesh& a, const TriangleMesh& b) {
         Json advice = Json::array();
         constexpr double seconds = 20;
-        const auto [moves, complete, elsewhere, apart] = freeingMoves(a, b, motion_, {dofs_, seconds});
+        const auto [moves, complete, elsewhere, apart] = freeingMoves(a, b, motion_, {canSayDofs_, seconds});
         if (elsewhere) sayElsewhere(*elsewhere);
         if (apart) sayApart(*apart);
         if (!complete)
@@ -82,7 +108,7 @@ public:
         console_.say(fmt::format(
             "{}: the meshes overlap where the joint rests. Options of tss make that move "
             "{} out of {}, found by\n  trying, the best first{}:",
-            pair_.path, b_, a_, form_ == Form::TwoMeshes ? "; they take the place of those given" : ""));
+            pair_.path, b_, a_, madeBy_ == MadeBy::TwoMeshes ? "; they take the place of those given" : ""));
         for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
         return advice;
     }
@@ -90,15 +116,15 @@ public:
 private:
     std::string length(double value) const { return lengthText(value, unit_); }
 
-    /// dofs: with these of the motion, where they can be said.
-    std::string option(const Vec3& shift, const Motion& motion, bool dofs) const {
-        if (form_ != Form::TwoMeshes && !dofs)
+    /// What to type to move B by `shift`, and with it the axes of the motion where `axes` asks for that.
+    std::string option(const Vec3& shift, const Motion& motion, bool axes) const {
+        if (madeBy_ != MadeBy::TwoMeshes && !axes)
             return fmt::format("--offset {}={}", shellWord(b_), vectorText(shift, size_));
-        const std::string by = vectorText(already_ + shift, size_);
+        const std::string by = vectorText(offset_ + shift, size_);
         std::vector<std::string> texts;
-        if (dofs)
+        if (axes)
             for (const Dof& dof : motion.dofs) texts.push_back(dofText(dof, size_));
-        if (form_ == Form::Joint)
+        if (madeBy_ == MadeBy::Joint)
             return fmt::format("--joint '{}={},{}:{};offset:{}'", primName(pair_.path), a_, b_,
                                fmt::join(texts, ";"), by);
         std::string text = "--b-offset=" + by;
@@ -132,18 +158,18 @@ private:
     /// The option or the attribute by which a joint rests at these values.
     std::string restAt(const std::vector<double>& q) const {
         std::vector<std::string> values;
-        const bool named = form_ != Form::TwoMeshes && pair_.joints.size() > 1;
+        const bool named = madeBy_ != MadeBy::TwoMeshes && pair_.joints.size() > 1;
         for (std::size_t k = 0; k < motion_.dofCount(); ++k) {
             values.push_back(fmt::format("{:.4g}", toUser(motion_.dofs[k], q[k])));
             if (named) values.back() += ofDof(motion_.dofs[k]);
         }
-        return fmt::format("{}{}", form_ == Form::TwoMeshes ? "--rest=" : "tss:rest ",
+        return fmt::format("{}{}", madeBy_ == MadeBy::TwoMeshes ? "--rest=" : "tss:rest ",
                            fmt::join(values, named ? ", " : ","));
     }
 
     Json sayMove(const FreeingMove& move) const {
         const std::string words = option(move.shift, move.motion, move.axes.norm() > 1e-6 * size_);
-        const char* beside = form_ == Form::TwoMeshes ? ""
+        const char* beside = madeBy_ == MadeBy::TwoMeshes ? ""
                              : words.starts_with("--offset")
                                  ? "beside the options given: "
                                  : "in place of that --joint (in a robot's file, move the axis likewise): ";
@@ -177,31 +203,15 @@ private:
     Json sayBeyond(const FreeingMove& move) const {
         if (move.beyond.empty()) return nullptr;
         std::string where;
-        Motion wider = move.motion;
         for (const StopBeyond& stop : move.beyond) {
             const Dof& dof = motion_.dofs[stop.dof];
             where += fmt::format("{}at {:.4g}{}{}", where.empty() ? "" : " and ", toUser(dof, stop.value),
                                  dof.kind == DofKind::Rotation ? " degrees" : "", ofDof(dof));
-            // A little farther, so that it is contact that stops it.
-            const double more = 0.05 * (dof.upper - dof.lower);
-            Dof& widened = wider.dofs[stop.dof];
-            if (stop.value < dof.lower)
-                widened.lower = stop.value - more;
-            else
-                widened.upper = stop.value + more;
         }
-        for (std::size_t k = 0; k < wider.dofs.size(); ++k) { // not round and round
-            Dof& dof = wider.dofs[k];
-            const double excess = dof.upper - dof.lower - 2 * std::numbers::pi;
-            if (dof.kind != DofKind::Rotation || !(excess > 0)) continue;
-            const bool down = dof.lower<motion_.dofs[k].lower, up = dof.upper> motion_.dofs[k].upper;
-            if (down) dof.lower += excess / (up ? 2 : 1);
-            if (up) dof.upper -= excess / (down ? 2 : 1);
-        }
-        const std::string words = dofs_ ? option(move.shift, wider, true) : "";
+        const std::string words = canSayDofs_ ? option(move.shift, widened(move, motion_), true) : "";
         console_.say(fmt::format(
             "    {} meets nothing within these limits then; beyond them it does, {} at the latest{}{}", b_,
-            where, dofs_ ? ". For limits that go on past contact:\n    " : "", words));
+            where, canSayDofs_ ? ". For limits that go on past contact:\n    " : "", words));
         return {{"where", where}, {"option", words}};
     }
 
@@ -210,10 +220,10 @@ private:
     const Console& console_;
     const Motion motion_;
     std::string a_, b_; ///< the bodies, as the user knows them
-    Form form_ = Form::None;
-    bool dofs_ = false; ///< the DOFs can be said as an option
-    Vec3 already_ = Vec3::Zero();
-    double size_ = 0;
+    MadeBy madeBy_ = MadeBy::Unknown;
+    bool canSayDofs_ = false;    ///< as options
+    Vec3 offset_ = Vec3::Zero(); ///< of B, by the options that it was made with
+    double size_ = 0;            ///< diagonal of the smaller body
 };
 
 } // namespace
