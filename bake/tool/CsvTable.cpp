@@ -35,13 +35,13 @@ std::vector<std::string> cellsOf(const std::string& line) {
     return cells;
 }
 
-/// Whether a cell stands for a number that is not finite: in a first line that is a bad value, not a name.
+/// A number that is not finite, as text: in the first line that is a bad value and not the name of a column.
 bool isNotFinite(const std::string& cell) {
     const std::string word = lowerCase(cell);
     return word == "nan" || word == "inf" || word == "infinity";
 }
 
-/// Of a cell without blanks around it. Throws InputError that begins with `where`.
+/// The number in a cell that has no blanks around it. Throws InputError that begins with `where`.
 double cellValue(const std::string& cell, const std::string& where) {
     if (cell.find_first_of("; \t") != cell.npos)
         throw InputError(where + ": expected one finite number, and commas between columns, found \"" + cell +
@@ -55,29 +55,38 @@ bool isName(const std::string& cell) {
            cell[0] == '/';
 }
 
-/// A text file as some spreadsheets write it begins with this.
+/// Begins text files of some spreadsheets.
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 
-DofColumns named(const SceneModel& scene, const std::vector<JointDof>& which, std::vector<Dof> dofs) {
+/// Columns for these DOFs, `dofs` being the same ones in the same order. The last name of each, which
+/// messages use, is that of the joint where there are several joints, else that of the DOF.
+DofColumns columnsFor(const SceneModel& scene, const std::vector<JointDof>& places, std::vector<Dof> dofs) {
     DofColumns columns{std::move(dofs), {}};
     std::map<std::string, int> count;
-    const bool several = !which.empty() && which.front().joint != which.back().joint;
-    for (const JointDof& one : which) {
-        const Joint& joint = scene.joints[one.joint];
-        const std::string name = primName(joint.path), own = joint.dofs[one.dof].name;
-        columns.names.push_back({joint.path + ":" + own, name + ":" + own, own});
-        // The last is what messages say: of several joints the joint.
-        if (own != name) columns.names.back().insert(columns.names.back().end() - (several ? 0 : 1), name);
-        for (const std::string& word : columns.names.back()) ++count[word];
+    const bool several = !places.empty() && places.front().joint != places.back().joint;
+    for (const JointDof& place : places) {
+        const Joint& joint = scene.joints[place.joint];
+        const std::string ofJoint = primName(joint.path), ofDof = joint.dofs[place.dof].name;
+        std::vector<std::string>& names = columns.names.emplace_back();
+        names = {joint.path + ":" + ofDof, ofJoint + ":" + ofDof};
+        if (ofDof == ofJoint)
+            names.push_back(ofDof);
+        else if (several)
+            names.insert(names.end(), {ofDof, ofJoint});
+        else
+            names.insert(names.end(), {ofJoint, ofDof});
+        for (const std::string& name : names) ++count[name];
     }
-    for (std::vector<std::string>& names : columns.names) // the first, with the whole path, is no other's
+    // A name that several have is none's; the first, with the whole path, is always unique.
+    for (std::vector<std::string>& names : columns.names)
         names.erase(std::remove_if(names.begin() + 1, names.end(),
                                    [&](const std::string& name) { return count[name] > 1; }),
                     names.end());
     return columns;
 }
 
-/// Which column of the file is each DOF's; empty: the header has none of their names.
+/// For each DOF its column in the file, header.size() where it has none; empty where the header has none of
+/// their names. Throws InputError where it has some of them and others, or one twice. expected: the names.
 std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const DofColumns& columns,
                                  const std::string& file, const std::string& expected) {
     std::vector<std::size_t> order(columns.dofs.size(), header.size());
@@ -103,8 +112,9 @@ std::vector<std::size_t> orderOf(const std::vector<std::string>& header, const D
     return order;
 }
 
-/// A limit for values beyond it by rounding: limits and poses are printed with 6 digits.
-double withoutRounding(const Dof& dof, double value) {
+/// The value, or the limit that it is beyond by no more than rounding: limits and poses are printed with 6
+/// digits.
+double snappedToLimits(const Dof& dof, double value) {
     const double slack = limitRounding(dof, 5e-6);
     if (value < dof.lower && value >= dof.lower - slack) return dof.lower;
     if (value > dof.upper && value <= dof.upper + slack) return dof.upper;
@@ -166,27 +176,28 @@ bool isTime(const std::string& word) {
 }
 
 DofColumns dofColumns(const SceneModel& scene) {
-    std::vector<JointDof> which;
+    std::vector<JointDof> places;
     std::vector<Dof> dofs;
     for (std::size_t j = 0; j < scene.joints.size(); ++j)
         for (std::size_t k = 0; k < scene.joints[j].dofs.size(); ++k) {
-            which.push_back({static_cast<int>(j), k});
+            places.push_back({static_cast<int>(j), k});
             dofs.push_back(scene.joints[j].dofs[k]);
         }
-    return named(scene, which, std::move(dofs));
+    return columnsFor(scene, places, std::move(dofs));
 }
 
 DofColumns dofColumns(const SceneModel& scene, const Pair& pair) {
-    return named(scene, pairDofs(scene, pair), pairMotion(scene, pair).dofs);
+    return columnsFor(scene, pairDofs(scene, pair), pairMotion(scene, pair).dofs);
 }
 
 DofRows readDofRows(const std::string& file, const DofColumns& columns, bool stepped) {
     CsvTable csv = readCsv(file);
-    const bool passed = stepped && !csv.header.empty() && (isStep(csv.header[0]) || isTime(csv.header[0]));
+    // A column of times or steps, which is skipped.
+    const bool hasTime = stepped && !csv.header.empty() && (isStep(csv.header[0]) || isTime(csv.header[0]));
     std::vector<std::string> expected;
     for (const std::vector<std::string>& names : columns.names) expected.push_back(names.back());
     const std::string words = fmt::format("{}", fmt::join(expected, ", "));
-    if (passed) csv.header.erase(csv.header.begin());
+    if (hasTime) csv.header.erase(csv.header.begin());
     const std::vector<std::size_t> order = orderOf(csv.header, columns, file, words);
     std::vector<std::string> missing;
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -195,7 +206,7 @@ DofRows readDofRows(const std::string& file, const DofColumns& columns, bool ste
         throw InputError(Where{file}, "expected a column of " + firstOf(missing, 6));
     DofRows read;
     for (std::vector<double>& row : csv.rows) {
-        if (passed) row.erase(row.begin());
+        if (hasTime) row.erase(row.begin());
         if (missing.empty() && row.size() != columns.dofs.size())
             throw InputError(Where{file},
                              fmt::format("expected {}, one a degree of freedom ({}), found {}",
@@ -204,7 +215,7 @@ DofRows readDofRows(const std::string& file, const DofColumns& columns, bool ste
         for (std::size_t k = 0; k < columns.dofs.size(); ++k) {
             const Dof& dof = columns.dofs[k];
             const std::size_t column = order.empty() ? k : order[k];
-            values.push_back(column < row.size() ? withoutRounding(dof, fromUser(dof, row[column]))
+            values.push_back(column < row.size() ? snappedToLimits(dof, fromUser(dof, row[column]))
                                                  : dof.rest);
         }
         read.rows.push_back(std::move(values));
