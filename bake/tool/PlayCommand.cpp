@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <span>
 
 namespace tss::tool {
 
@@ -35,28 +36,34 @@ DofRows askedSteps(const SceneModel& scene, const PlayArguments& arguments) {
     return readDofRows(arguments.motion, dofColumns(scene), true);
 }
 
-/// How many steps ask for a pose outside of a joint's limits or planes.
-std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
-    return static_cast<std::size_t>(std::ranges::count_if(steps, [&](const auto& row) {
-        std::size_t first = 0;
-        for (const Joint& joint : scene.joints) {
-            std::vector<double> slack;
-            for (const Dof& dof : joint.dofs) {
-                const double value = row[first + slack.size()];
-                slack.push_back(1e-6 * (dof.upper - dof.lower));
-                if (wholeTurn(dof) && joint.planes.empty()) continue; // no end
-                if (value < dof.lower - slack.back() || value > dof.upper + slack.back()) return true;
-            }
-            for (const LimitPlane& plane : joint.planes) {
-                double excess = -plane.bound - 1e-12 * std::abs(plane.bound);
-                for (std::size_t k = 0; k < slack.size(); ++k)
-                    excess +=
-                        plane.coefficients[k] * row[first + k] - std::abs(plane.coefficients[k]) * slack[k];
-                if (excess > 0) return true;
-            }
-            first += joint.dofs.size();
+/// Whether values of a joint's DOFs lie outside its limits or planes by more than rounding.
+bool isOutside(const Joint& joint, std::span<const double> values) {
+    constexpr double rounding = 1e-6; // of a DOF's range
+    for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
+        const Dof& dof = joint.dofs[k];
+        if (wholeTurn(dof) && joint.planes.empty()) continue; // no end
+        const double slack = rounding * (dof.upper - dof.lower);
+        if (values[k] < dof.lower - slack || values[k] > dof.upper + slack) return true;
+    }
+    return std::ranges::any_of(joint.planes, [&](const LimitPlane& plane) {
+        double excess = -plane.bound - 1e-12 * std::abs(plane.bound);
+        for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
+            const double slack = rounding * (joint.dofs[k].upper - joint.dofs[k].lower);
+            excess += plane.coefficients[k] * values[k] - std::abs(plane.coefficients[k]) * slack;
         }
-        return false;
+        return excess > 0;
+    });
+}
+
+/// How many steps ask for a pose outside of what some joint allows.
+std::size_t countOutside(const SceneModel& scene, const std::vector<std::vector<double>>& steps) {
+    return static_cast<std::size_t>(std::ranges::count_if(steps, [&](const std::vector<double>& step) {
+        std::span<const double> rest(step);
+        return std::ranges::any_of(scene.joints, [&](const Joint& joint) {
+            const auto values = rest.first(joint.dofs.size());
+            rest = rest.subspan(joint.dofs.size());
+            return isOutside(joint, values);
+        });
     }));
 }
 
@@ -103,7 +110,7 @@ std::string line(const SceneModel& scene, std::size_t number, const std::vector<
 }
 
 /// What came of all steps together.
-struct Sums {
+struct Totals {
     struct OfSkin {
         double seconds = 0;
         double pushed = 0;   ///< at worst
@@ -152,11 +159,12 @@ nlohmann::json sayFollowing(const SceneModel& scene, const SkinModel& skin, cons
 }
 
 /// What a step costs on one core, in words; the tool's own measuring of depths is not in it.
-std::string costText(const SceneModel& scene, std::size_t steps, const Sums& sums) {
+std::string costText(const SceneModel& scene, std::size_t steps, const Totals& totals) {
     const auto each = static_cast<double>(std::max<std::size_t>(steps, 1));
-    std::string text = fmt::format("  a step costs {:.3g} us for the joints", 1e6 * sums.jointSeconds / each);
-    for (std::size_t k = 0; k < sums.skins.size(); ++k)
-        text += fmt::format(", {:.3g} ms for {}", 1e3 * sums.skins[k].seconds / each, scene.skins[k].path);
+    std::string text =
+        fmt::format("  a step costs {:.3g} us for the joints", 1e6 * totals.jointSeconds / each);
+    for (std::size_t k = 0; k < totals.skins.size(); ++k)
+        text += fmt::format(", {:.3g} ms for {}", 1e3 * totals.skins[k].seconds / each, scene.skins[k].path);
     return text + ", on one core";
 }
 
@@ -202,6 +210,23 @@ std::vector<std::string> unbaked(const SceneModel& scene) {
     return warnings;
 }
 
+/// What came of all steps, in words, and of the skins as data. costs: one a skin; empty: not measured.
+nlohmann::json sayTotals(const SceneModel& scene, std::size_t steps, const Totals& totals,
+                         const std::vector<SkinCosts>& costs, const Console& console) {
+    for (const auto& [status, count] : totals.statuses) console.say(fmt::format("  {:<10}{}", status, count));
+    console.say(costText(scene, steps, totals));
+    if (!scene.skins.empty())
+        console.say("  deepest residual of a skin " + lengthText(totals.deepest, scene.metersPerUnit) +
+                    ": so far it is in what is below it, beyond its depth at rest");
+    nlohmann::json skins = nlohmann::json::array();
+    for (std::size_t k = 0; k < totals.skins.size(); ++k) {
+        const auto& [seconds, pushed, worst] = totals.skins[k];
+        skins.push_back(sayFollowing(scene, scene.skins[k], worst, pushed, console));
+        if (!costs.empty()) skins.back()["costs"] = sayParts(scene.skins[k], costs[k], seconds, console);
+    }
+    return skins;
+}
+
 void play(const PlayArguments& arguments, const Console& console) {
     refuseOverwriting(arguments.output, {arguments.scene, arguments.motion});
     if (!arguments.output.empty()) expectText(arguments.output);
@@ -222,15 +247,15 @@ void play(const PlayArguments& arguments, const Console& console) {
             steps.size()));
     for (const std::string& warning : warnings) console.say(warning);
 
-    std::vector<SkinCosts> costs(scene.skins.size());
+    std::vector<SkinCosts> costs(arguments.timings ? scene.skins.size() : 0);
     if (arguments.timings) player.charge(costs);
     std::string text = header(scene);
-    Sums sums;
-    sums.skins.resize(scene.skins.size());
+    Totals totals;
+    totals.skins.resize(scene.skins.size());
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Player::Step step = player.step(steps[k], scene.startTimeCode + static_cast<double>(k));
         text += line(scene, k, steps[k], step);
-        sums.add(step, player.following());
+        totals.add(step, player.following());
         if (!arguments.meshes.empty())
             writeFileAtomically(frameName(arguments.meshes, static_cast<unsigned int>(k)),
                                 objText(scene, player.worldMeshes()));
@@ -238,22 +263,12 @@ void play(const PlayArguments& arguments, const Console& console) {
     if (!arguments.output.empty()) writeFileAtomically(arguments.output, text);
     console.say(fmt::format("{}{}", counted(steps.size(), "step"),
                             arguments.output.empty() ? "" : ", wrote " + arguments.output));
-    for (const auto& [status, count] : sums.statuses) console.say(fmt::format("  {:<10}{}", status, count));
-    console.say(costText(scene, steps.size(), sums));
-    if (!scene.skins.empty())
-        console.say("  deepest residual of a skin " + lengthText(sums.deepest, scene.metersPerUnit) +
-                    ": so far it is in what is below it, beyond its depth at rest");
-    nlohmann::json skins = nlohmann::json::array();
-    for (std::size_t k = 0; k < sums.skins.size(); ++k) {
-        const auto& [seconds, pushed, worst] = sums.skins[k];
-        skins.push_back(sayFollowing(scene, scene.skins[k], worst, pushed, console));
-        if (arguments.timings) skins.back()["costs"] = sayParts(scene.skins[k], costs[k], seconds, console);
-    }
+    const nlohmann::json skins = sayTotals(scene, steps.size(), totals, costs, console);
     console.print({{"steps", steps.size()},
-                   {"statuses", sums.statuses},
+                   {"statuses", totals.statuses},
                    {"skins", skins},
                    {"outsideLimits", outside},
-                   {"residualDepth", sums.deepest},
+                   {"residualDepth", totals.deepest},
                    {"warnings", warnings},
                    {"output", arguments.output}});
 }
