@@ -165,13 +165,16 @@ Layer inputLayer(const ConvertArguments& arguments, std::vector<std::string>& no
     return inFile(arguments.input, [&] { return withFilteredPairs(scene, evidenceOf(scene)); });
 }
 
-/// An option that does nothing for these files is a mistake.
+/// Throws for options that do nothing with these files.
 void refuseIdleOptions(const ConvertArguments& arguments) {
     const std::string from = fileExtension(arguments.input), to = fileExtension(arguments.output);
-    const bool robot = from != ".tss" && !isUsd(arguments.input) && isRobot(arguments.input),
-               mesh = from != ".tss" && !isUsd(arguments.input) && !robot,
-               spheres = to == ".yml" || to == ".yaml";
-    const std::map<std::string, std::pair<bool, const char*>> uses = {
+    const bool usd = isUsd(arguments.input), robot = from != ".tss" && !usd && isRobot(arguments.input),
+               mesh = from != ".tss" && !usd && !robot, spheres = to == ".yml" || to == ".yaml";
+    struct Use {
+        bool applies;
+        const char* what;
+    };
+    const std::map<std::string, Use> uses = {
         {"--binary", {to == ".tss", "for a .tss to write"}},
         {"--buffers", {to == ".tss", "for a .tss to write"}},
         {"--filtered-pairs",
@@ -182,33 +185,32 @@ void refuseIdleOptions(const ConvertArguments& arguments) {
         {"--tolerance", {spheres, "for spheres to write, .yml"}},
         {"--max-spheres", {spheres, "for spheres to write, .yml"}}};
     for (const std::string& option : arguments.given)
-        if (const auto use = uses.find(option); use != uses.end() && !use->second.first)
+        if (const auto use = uses.find(option); use != uses.end() && !use->second.applies)
             throw CLI::ValidationError(option,
-                                       std::string("is ") + use->second.second + "; it does nothing here");
+                                       std::string("is ") + use->second.what + "; it does nothing here");
 }
 
 void convert(const ConvertArguments& arguments, const Console& console) {
     refuseIdleOptions(arguments);
     refuseOverwriting(arguments.output, {arguments.input});
     expectWritable(arguments.output);
-    if (fileExtension(arguments.output) == ".yml" || fileExtension(arguments.output) == ".yaml")
-        return writeSpheresOf(arguments, console);
-    if (fileExtension(arguments.output) == ".srdf" || fileExtension(arguments.output) == ".xml")
-        return writePairsOf(arguments, console);
+    const std::string to = fileExtension(arguments.output);
+    if (to == ".yml" || to == ".yaml") return writeSpheresOf(arguments, console);
+    if (to == ".srdf" || to == ".xml") return writePairsOf(arguments, console);
     std::vector<std::string> notes;
     const Layer layer = inputLayer(arguments, notes);
     for (const std::string& note : notes) console.say("note: " + note);
     const Encoding encoding = arguments.binary ? Encoding::Cbor : Encoding::Json;
     Json result = {{"input", arguments.input}, {"output", arguments.output}, {"notes", notes}};
-    if (fileExtension(arguments.output) == ".usda")
+    if (to == ".usda")
         writeFileAtomically(arguments.output, writeUsda(layer));
-    else if (fileExtension(arguments.output) == ".tss" && arguments.buffers)
-        result["buffer"] = saveWithBuffer(layer, arguments.output, encoding);
-    else if (fileExtension(arguments.output) == ".tss")
-        saveLayer(layer, arguments.output, encoding);
-    else
+    else if (to != ".tss")
         throw InputError(Where{arguments.output},
                          "expected a name that ends in .tss, .usda, .srdf, .xml or .yml");
+    else if (arguments.buffers)
+        result["buffer"] = saveWithBuffer(layer, arguments.output, encoding);
+    else
+        saveLayer(layer, arguments.output, encoding);
     console.say("wrote " + arguments.output);
     console.print(result);
 }
