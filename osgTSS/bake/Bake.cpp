@@ -1,14 +1,13 @@
 #include "bake/pipeline/Bake.h"
 
+#include "TableCache.h"
 #include "osgTSS/src/EachNode.h"
 
 #include "bake/base/Error.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/model/Kinematics.h"
-#include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/FirstLook.h"
-#include "bake/scene/SceneFile.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/table/Query.h"
 
@@ -20,10 +19,7 @@
 #include <osgTSS/ConstraintVisitor>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
 #include <limits>
-#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -31,6 +27,20 @@
 namespace osgTSS {
 
 namespace {
+
+/// Warns of options that are not known; those that resemble none may be other plugins', whose words stand in
+/// the same string.
+void warnOfUnknown(const BakeOptions& options) {
+    for (const std::string& key : options.unknown) {
+        const std::string meant = nearestOption(key);
+        if (meant.empty()) { // OSG's macros are an if: without braces the else would be theirs
+            OSG_NOTICE << "osgTSS: option \"" << key << "\" is none of osgTSS's" << std::endl;
+        } else {
+            OSG_WARN << "osgTSS: option \"" << key << "\" is not known; was " << meant << " meant?"
+                     << std::endl;
+        }
+    }
+}
 
 /// Writes what options say of nodes onto them.
 void tagNodes(osg::Node& root, const BakeOptions& options) {
@@ -93,53 +103,7 @@ std::shared_ptr<tss::SceneModel> extract(osg::Node& root, const BakeOptions& opt
     return model;
 }
 
-bool isBaked(const tss::Pair& pair) {
-    return pair.table || pair.proof;
-}
-bool isBaked(const tss::SkinModel& skin) {
-    return bool(skin.table);
-}
-
-/// Tables and proofs of an earlier bake that still fit, whatever their pairs are called: joints without names
-/// are numbered, and a file may have them in another order since. Returns how many.
-std::size_t takeFromCache(tss::SceneModel& model, const std::string& file) {
-    std::error_code failed;
-    if (file.empty() || !std::filesystem::exists(file, failed)) return 0;
-    std::size_t taken = 0;
-    const auto take = [&](auto& all, const auto& cached) {
-        std::map<std::string, std::size_t> madeOf;
-        for (std::size_t k = 0; k < cached.size(); ++k)
-            if (isBaked(cached[k])) madeOf.emplace(cached[k].sourceHash, k);
-        for (auto& item : all) {
-            const auto made = madeOf.find(tss::sourceHash(model, item));
-            if (made == madeOf.end()) continue;
-            const auto& old = cached[made->second];
-            item.table = old.table;
-            if constexpr (requires { item.proof; }) item.proof = old.proof;
-            item.sourceHash = old.sourceHash;
-            ++taken;
-        }
-    };
-    try {
-        const tss::SceneModel cached = tss::loadScene(file);
-        take(model.pairs, cached.pairs);
-        take(model.skins, cached.skins);
-    } catch (const std::exception& error) {
-        OSG_WARN << "osgTSS: " << file << " is baked anew: " << error.what() << std::endl;
-    }
-    return taken;
-}
-
-void keep(const tss::SceneModel& model, const std::string& cache) {
-    if (cache.empty()) return;
-    try {
-        tss::saveScene(model, cache);
-    } catch (const std::exception& error) {
-        OSG_NOTICE << "osgTSS: the tables are not kept for the next time: " << error.what() << std::endl;
-    }
-}
-
-/// What a person should know before trusting the joint to its table: what `tss info` warns of.
+/// Warns of what a person should know before trusting the joint to its table, as `tss info` does.
 void warnOf(const tss::SceneModel& model, const tss::Pair& pair) {
     const auto early = tss::measureEarlyContact(model, pair);
     if (!early) return;
@@ -206,7 +170,7 @@ void refuseTooFarOff(const tss::SceneModel& model, const tss::Pair& pair) {
     throw tss::InputError(text.str());
 }
 
-/// What the bake says names options as the command has them: here they are words of -O.
+/// A message of the bake, which names options as the command line has them, with the words of -O instead.
 std::string inWords(const std::string& text) {
     static const std::regex again("--again "), withValue("--([a-z-]+) ([0-9][0-9.e-]*|medial)"),
         alone("--([a-z-]+)");
@@ -219,14 +183,15 @@ std::string inWords(const std::string& text) {
 /// coarser, or the pair is not kept apart, and it is said.
 constexpr double effort = 0.1;
 
-/// Over how many joint values a pair turns all the way round.
+/// The number of joint values over which a pair turns all the way round.
 std::ptrdiff_t wholeTurns(const tss::SceneModel& model, const tss::Pair& pair) {
     return std::ranges::count_if(pairDofs(model, pair), [&](const tss::JointDof& dof) {
         return tss::wholeTurn(model.joints[dof.joint].dofs[dof.dof]);
     });
 }
 
-/// settings: those asked for.
+/// Gives pairs with a large space of poses a coarse tolerance and a short budget, where `settings`, those
+/// asked for, say nothing of these.
 void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::string>& settings) {
     std::ostringstream tolerance, budget;
     tolerance << tss::usualTolerance(model);
@@ -274,18 +239,42 @@ void bakeOne(tss::SceneModel& model, const std::string& path, const BakeOptions&
     }
 }
 
+/// Bakes all pairs and skins that have nothing from the cache, until progress says stop. Returns whether
+/// there were any.
+bool bakeMissing(tss::SceneModel& model, const BakeOptions& options, TableCache& cache,
+                 const BakeProgress& progress) {
+    std::vector<std::string> paths;
+    for (const tss::Pair& pair : model.pairs) paths.push_back(pair.path);
+    for (const tss::SkinModel& skin : model.skins) paths.push_back(skin.path);
+    std::set<std::string> told;
+    bool any = false;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        const auto share = [&](double done) {
+            return (static_cast<double>(k) + done) / static_cast<double>(paths.size());
+        };
+        if (progress && !progress(paths[k], share(0))) break;
+        if (k < model.pairs.size()) {
+            const tss::Pair& pair = model.pairs[k];
+            if (pair.table || pair.proof) {
+                warnOf(model, pair);
+                continue;
+            }
+        } else if (model.skins[k - model.pairs.size()].table) {
+            continue;
+        }
+        bakeOne(model, paths[k], options, told, [&](std::string_view step, double done) {
+            return !progress || progress(paths[k] + ": " + std::string(step), share(done));
+        });
+        any = true;
+        cache.saveNowAndThen(model);
+    }
+    return any;
+}
+
 } // namespace
 
 osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const BakeProgress& progress) {
-    for (const std::string& key : options.unknown) {
-        const std::string meant = nearestOption(key);
-        if (meant.empty()) { // other plugins have words of their own in the same string
-            OSG_NOTICE << "osgTSS: option \"" << key << "\" is none of osgTSS's" << std::endl;
-        } else {
-            OSG_WARN << "osgTSS: option \"" << key << "\" is not known; was " << meant << " meant?"
-                     << std::endl;
-        }
-    }
+    warnOfUnknown(options);
     tss::optionsFor({}, options.settings, 1); // set in code: a wrong one is no pair's fault
     tagNodes(root, options);
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
@@ -294,39 +283,11 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
         for (const auto& [key, value] : options.settings) pair.settings[key] = value;
     for (tss::SkinModel& skin : model->skins)
         for (const auto& [key, value] : options.settings) skin.settings[key] = value;
-    const std::string cache = options.cache == "off" ? "" : options.cache;
-    std::size_t taken = takeFromCache(*model, cache), made = 0;
-    const std::size_t count = model->pairs.size() + model->skins.size();
-    if (taken > 0)
-        OSG_NOTICE << "osgTSS: " << taken << " of " << count << " pairs and skins are as baked in " << cache
-                   << std::endl;
-    // Now and then, so that what a long bake has done by when it is ended is not lost.
-    using Time = std::chrono::steady_clock;
-    constexpr auto saveEvery = std::chrono::seconds(10);
-    Time::time_point saved = Time::now();
-    std::set<std::string> told;
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t skin = k - std::min(k, model->pairs.size());
-        const bool isPair = k < model->pairs.size();
-        const std::string path = isPair ? model->pairs[k].path : model->skins[skin].path;
-        const auto share = [&](double done) {
-            return (static_cast<double>(k) + done) / static_cast<double>(count);
-        };
-        if (progress && !progress(path, share(0))) break;
-        if (isPair && (model->pairs[k].table || model->pairs[k].proof)) { // from the cache
-            warnOf(*model, model->pairs[k]);
-            continue;
-        }
-        if (!isPair && model->skins[skin].table) continue;
-        bakeOne(*model, path, options, told, [&](std::string_view step, double done) {
-            return !progress || progress(path + ": " + std::string(step), share(done));
-        });
-        ++made;
-        if (Time::now() - saved < saveEvery) continue;
-        keep(*model, cache);
-        saved = Time::now();
-    }
-    if (made > 0) keep(*model, cache);
+    TableCache cache(options.cache == "off" ? "" : options.cache);
+    if (const std::size_t taken = cache.takeInto(*model); taken > 0)
+        OSG_NOTICE << "osgTSS: " << taken << " of " << model->pairs.size() + model->skins.size()
+                   << " pairs and skins are as baked in " << options.cache << std::endl;
+    if (bakeMissing(*model, options, cache, progress)) cache.save(*model);
     dropThoseThatPush(*model);
     return new Scene(model);
 }
