@@ -1,11 +1,8 @@
 #include "BodyNodes.h"
-#include "SphereGeometry.h"
+#include "DrawnTable.h"
 #include "osgTSS/src/EachNode.h"
 
-#include <osg/BlendFunc>
-#include <osg/LineWidth>
 #include <osg/NodeVisitor>
-#include <osg/Point>
 #include <osg/observer_ptr>
 #include <osgTSS/Convert>
 #include <osgTSS/Overlay>
@@ -15,56 +12,12 @@
 #include "bake/play/SkinSetup.h"
 
 #include <cmath>
-#include <limits>
 
 namespace osgTSS {
 
 namespace {
 
-const osg::Vec4 colorA(0.25f, 0.55f, 0.95f, 0.35f), colorB(0.95f, 0.6f, 0.15f, 0.35f);
-const osg::Vec4 pairColor(1, 1, 1, 0.25f), nearestColor(1, 0.15f, 0.15f, 1);
 const osg::Vec4 regionColor(0.3f, 0.9f, 0.4f, 0.6f);
-
-/// Lines of one colour, and points at their ends where wanted.
-class Lines : public osg::Geometry {
-public:
-    Lines(const osg::Vec4& color, float width, bool points) : _points(points) {
-        setDataVariance(DYNAMIC);
-        setUseDisplayList(false);
-        setUseVertexBufferObjects(true);
-        setVertexArray(_vertices);
-        osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
-        colors->front() = color;
-        setColorArray(colors);
-        osg::StateSet* state = getOrCreateStateSet();
-        state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
-        // In front of everything: contact is where surfaces hide it.
-        state->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-        state->setAttributeAndModes(new osg::BlendFunc);
-        state->setAttribute(new osg::LineWidth(width));
-        state->setAttribute(new osg::Point(3 * width));
-        state->setRenderBinDetails(20, "RenderBin");
-    }
-
-    void clear() { _vertices->clear(); }
-    void add(const tss::Vec3& from, const tss::Vec3& to) {
-        _vertices->push_back(osg::Vec3(toOsg(from)));
-        _vertices->push_back(osg::Vec3(toOsg(to)));
-    }
-    void finish() {
-        const auto count = static_cast<GLsizei>(_vertices->size());
-        removePrimitiveSet(0, getNumPrimitiveSets());
-        addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, count));
-        if (_points && count > 0) addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 1));
-        _vertices->dirty();
-        dirtyGLObjects();
-        dirtyBound();
-    }
-
-private:
-    bool _points;
-    osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
-};
 
 /// Where a body stands now, in the overlay's frame; nothing when its node is gone.
 std::optional<Similarity> placeNow(const BodyFrame& body, osg::Node& root, const osg::Matrixd& fromRoot) {
@@ -81,59 +34,6 @@ tss::Vec3 movedPoint(const tss::Vec3& point, const Similarity& to) {
 tss::Sphere moved(const tss::Sphere& sphere, const Similarity& to) {
     return {movedPoint(sphere.centre, to), std::abs(to.scale) * sphere.radius};
 }
-
-/// One table: where its spheres are is said anew each frame.
-struct DrawnTable {
-    std::vector<tss::SpherePair> tests;
-    std::vector<double> restGaps;
-    std::vector<tss::Sphere> a, b; ///< in the overlay's frame
-    osg::ref_ptr<SphereGeometry> shapeA, shapeB;
-    osg::ref_ptr<Lines> pairs = new Lines(pairColor, 1, false), nearest = new Lines(nearestColor, 3, true);
-
-    explicit DrawnTable(const tss::Table& table)
-        : tests(tss::tests(table)), restGaps(table.restGaps), a(table.a.size()), b(table.b.size()),
-          shapeA(new SphereGeometry(table.a.size(), colorA)),
-          shapeB(new SphereGeometry(table.b.size(), colorB)) {}
-
-    void draw() {
-        shapeA->place(a);
-        shapeB->place(b);
-        pairs->clear();
-        nearest->clear();
-        double least = std::numeric_limits<double>::infinity();
-        const tss::SpherePair* closest = nullptr;
-        for (std::size_t t = 0; t < tests.size(); ++t) {
-            const tss::Sphere &from = a[tests[t].a], &to = b[tests[t].b];
-            pairs->add(from.centre, to.centre);
-            const double gap = (to.centre - from.centre).norm() - from.radius - to.radius -
-                               (restGaps.empty() ? 0 : restGaps[t]);
-            if (gap < least) {
-                least = gap;
-                closest = &tests[t];
-            }
-        }
-        if (closest) drawContact(a[closest->a], b[closest->b]);
-        pairs->finish();
-        nearest->finish();
-    }
-
-private:
-    /// The point between the two surfaces, and the normal there, as long as the smaller body is wide.
-    void drawContact(const tss::Sphere& from, const tss::Sphere& to) {
-        tss::Vec3 normal = to.centre - from.centre;
-        const double distance = normal.norm();
-        if (!(distance > 0)) return;
-        normal /= distance;
-        const tss::Vec3 point =
-            from.centre + normal * (from.radius + (distance - from.radius - to.radius) / 2);
-        Eigen::AlignedBox3d boxA, boxB;
-        for (const tss::Sphere& sphere : a) boxA.extend(sphere.centre);
-        for (const tss::Sphere& sphere : b) boxB.extend(sphere.centre);
-        const double length = std::max(0.25 * std::min(boxA.diagonal().norm(), boxB.diagonal().norm()),
-                                       4 * std::max(from.radius, to.radius));
-        nearest->add(point, point + length * normal);
-    }
-};
 
 /// The outlines of the parts of both surfaces that overlap at rest.
 struct DrawnRegion {
