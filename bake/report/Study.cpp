@@ -1,0 +1,44 @@
+#include "bake/report/Study.h"
+
+#include "bake/base/Degrees.h"
+#include "bake/pipeline/BakeOptions.h"
+
+namespace tss::reporting {
+
+double Row::worst() const {
+    return std::max(deepestMiss(), farthestEarly());
+}
+
+double unitsPer(const Dof& dof) {
+    return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
+}
+
+std::string unitOf(const Dof& dof, double metersPerUnit) {
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        return "degrees";
+    case DofKind::Translation:
+        return "times " + lengthText(dof.axis.norm(), metersPerUnit);
+    case DofKind::Path:
+        return "of its path";
+    }
+    return "";
+}
+
+std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
+                                    const std::function<double(const Row&)>& y) {
+    std::vector<const Row*> sorted, front;
+    for (const Row& row : rows)
+        if (x(row) > 0 && !row.slow()) sorted.push_back(&row);
+    std::ranges::stable_sort(sorted, [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
+    for (const Row* row : sorted)
+        if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
+    return front;
+}
+
+double Row::wrong() const {
+    return static_cast<double>(uniform.missed + uniform.early) /
+           static_cast<double>(std::max<std::size_t>(1, uniform.poses));
+}
+
+} // namespace tss::reporting
