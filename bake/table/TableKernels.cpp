@@ -74,7 +74,26 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
 
     const std::vector<TablePair> pairs = tablePairs(table);
     const std::vector<std::vector<double>> contacts = nearContact(motion_, pairs);
-    // Both origins where the touching is, so that t and the centres are small there.
+    chooseOrigins(pairs, contacts);
+    checkReach(pairs);
+    recipe_ = PoseRecipe(motion_, originA_, originB_);
+    double farthest = std::max(originA_.norm(), originB_.norm());
+    for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
+    for (const Sphere& b : table.b) turnError_ = std::max(turnError_, turnError(motion_, b.centre));
+    poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest) + turnError_, options.poseError);
+
+    if (options.form != KernelForm::Direct) makeFold(pairs, contacts);
+    const std::vector<double> widening = choose(options, pairs);
+    const Widened tests{pairs, widening};
+    if (float_)
+        prepareKernels<float>(options.cells, tests);
+    else
+        prepareKernels<double>(options.cells, tests);
+}
+
+/// Both origins where the touching is, so that T(q) originB - originA and the centres are small there.
+void TableKernels::chooseOrigins(std::span<const TablePair> pairs,
+                                 std::span<const std::vector<double>> contacts) {
     for (const TablePair& p : pairs) originB_ += p.b / double(pairs.size());
     for (const std::vector<double>& q : contacts)
         originA_ += pose(motion_, q) * originB_ / double(contacts.size());
@@ -87,37 +106,24 @@ TableKernels::TableKernels(const Table& table, const PrepareOptions& options)
     farthestT_ = (middle.pose * originB_ - originA_).norm();
     for (std::size_t k = 0; k < motion_.dofCount(); ++k)
         farthestT_ += 0.5 * speeds[k] * (motion_.dofs[k].upper - motion_.dofs[k].lower);
-    checkReach(pairs);
-    recipe_ = PoseRecipe(motion_, originA_, originB_);
-    double farthest = std::max(originA_.norm(), originB_.norm());
-    for (const TablePair& p : pairs) farthest = std::max({farthest, p.a.norm(), p.b.norm()});
-    for (const Sphere& b : table.b) turnError_ = std::max(turnError_, turnError(motion_, b.centre));
-    poseError_ = std::max(poseError(motion_, doubleRoundoff, farthest) + turnError_, options.poseError);
+}
 
-    if (options.form != KernelForm::Direct) {
-        fold_ = makeFeatureForm(motion_, pairs, contacts);
-        if (fold_ && !pairs.empty()) {
-            // Features centred near contact round better, unless that leaves their far end too far away.
-            const double centred = foldBands(floatRoundoff, pairs).sign;
-            std::optional<FeatureForm> plain = makeFeatureForm(motion_, pairs, {});
-            std::swap(fold_, plain);
-            if (foldBands(floatRoundoff, pairs).sign >= centred) std::swap(fold_, plain);
-            double largest = 0;
-            const std::vector<std::vector<double>> poses = latticePoses(motion_, 50);
-            for (const std::vector<double>& at : poses) {
-                const Pose p = pose(motion_, at);
-                for (const TablePair& pair : pairs)
-                    largest = std::max(largest, (p * pair.b - pair.a).squaredNorm());
-            }
-            if (!(featureFormMismatch(*fold_, motion_, pairs, poses) <= 1e-11 * largest)) fold_.reset();
-        }
+/// The fold, where there is one that is right: features centred near contact round better, unless that leaves
+/// their far end too far away.
+void TableKernels::makeFold(std::span<const TablePair> pairs, std::span<const std::vector<double>> contacts) {
+    fold_ = makeFeatureForm(motion_, pairs, contacts);
+    if (!fold_ || pairs.empty()) return;
+    const double centred = foldBands(floatRoundoff, pairs).sign;
+    std::optional<FeatureForm> plain = makeFeatureForm(motion_, pairs, {});
+    std::swap(fold_, plain);
+    if (foldBands(floatRoundoff, pairs).sign >= centred) std::swap(fold_, plain);
+    double largest = 0;
+    const std::vector<std::vector<double>> poses = latticePoses(motion_, 50);
+    for (const std::vector<double>& q : poses) {
+        const Pose at = pose(motion_, q);
+        for (const TablePair& p : pairs) largest = std::max(largest, (at * p.b - p.a).squaredNorm());
     }
-    const std::vector<double> widening = choose(options, pairs);
-    const Widened tests{pairs, widening};
-    if (float_)
-        prepareKernels<float>(options.cells, tests);
-    else
-        prepareKernels<double>(options.cells, tests);
+    if (!(featureFormMismatch(*fold_, motion_, pairs, poses) <= 1e-11 * largest)) fold_.reset();
 }
 
 void TableKernels::checkReach(std::span<const TablePair> pairs) const {
@@ -331,56 +337,6 @@ std::size_t TableKernels::bytes() const {
     std::size_t chunks = blocks_.size() + likelyStore_.size();
     for (const StoredRows& level : bounds_) chunks += level.store.size();
     return chunks * sizeof(Chunk) + cells_.bytes();
-}
-
-void TableKernels::features(const double* q, TableFeatures& out) const {
-    if (!cells_.empty()) out.cell = cells_.rowAt(q);
-    poseFeatures(q, out);
-}
-
-void TableKernels::features(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
-    PoseRecipe::Matrix moved = pose;
-    for (int r = 0; r < 3; ++r)
-        moved[4 * r + 3] += pose[4 * r] * originB_.x() + pose[4 * r + 1] * originB_.y() +
-                            pose[4 * r + 2] * originB_.z() - originA_[r];
-    storePose(moved, out);
-}
-
-bool TableKernels::hit(const double* q) const {
-    std::uint32_t cell = 0;
-    if (!cells_.empty()) {
-        cell = cells_.rowAt(q);
-        const bool all = cells_.allTouch(cell);
-        if (static_cast<int>(all) | static_cast<int>(cells_.noneTouches(cell))) return all;
-    }
-    TableFeatures f;
-    f.cell = cell;
-    poseFeatures(q, f);
-    return hit(f);
-}
-
-void TableKernels::poseFeatures(const double* q, TableFeatures& out) const {
-    if (kernels_.pose) return kernels_.pose(plan_, q, out.doubles);
-    if (fold_) {
-        if (float_)
-            fold_->evaluate(q, out.floats);
-        else
-            fold_->evaluate(q, out.doubles);
-        return;
-    }
-    PoseRecipe::Matrix values;
-    recipe_.evaluate(q, values.data());
-    storePose(values, out);
-}
-
-void TableKernels::storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
-    if (float_) {
-        out.floats[0] = 0;
-        for (std::size_t k = 0; k < pose.size(); ++k) out.floats[k + 1] = float(pose[k]);
-    } else {
-        out.doubles[0] = 0;
-        for (std::size_t k = 0; k < pose.size(); ++k) out.doubles[k + 1] = pose[k];
-    }
 }
 
 } // namespace tss

@@ -142,6 +142,8 @@ private:
     double clusterReachOf(double margin) const;
     void poseFeatures(const double* q, TableFeatures& out) const;
     void storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const;
+    void chooseOrigins(std::span<const TablePair> pairs, std::span<const std::vector<double>> contacts);
+    void makeFold(std::span<const TablePair> pairs, std::span<const std::vector<double>> contacts);
     /// Throws InputError where squares of lengths would not be numbers.
     void checkReach(std::span<const TablePair> pairs) const;
     Bands foldBands(double u, std::span<const TablePair> pairs) const;
@@ -153,6 +155,8 @@ private:
         std::span<const TablePair> pairs;
         std::span<const double> by;
     };
+    /// Lays rows out in blocks of `lanes` as the kernels read them (KernelData); the last block is filled up
+    /// with rows that are far away. order: of the rows; empty: all as they come.
     template <class T>
     void fill(const Widened& rows, std::uint32_t lanes, std::span<const std::uint32_t> order,
               std::vector<Chunk>& store, KernelData& data) const;

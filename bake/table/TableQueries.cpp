@@ -1,5 +1,6 @@
-// How a table in clusters is asked: first the pairs of spheres that bound them, then the tests of those that
-// are near.
+// How the kernels of a table are asked: features of a pose, verdicts, contacts, and the tests within a
+// margin. A table in clusters is asked for the pairs of spheres that bound them first, then for the tests of
+// those that are near.
 #include "bake/table/TableKernels.h"
 
 #include <algorithm>
@@ -15,6 +16,56 @@ constexpr std::size_t mostLanes = 64;
 using NearList = std::array<std::uint32_t, TableClusters::mostAtTop + mostLanes>;
 
 } // namespace
+
+void TableKernels::features(const double* q, TableFeatures& out) const {
+    if (!cells_.empty()) out.cell = cells_.rowAt(q);
+    poseFeatures(q, out);
+}
+
+void TableKernels::features(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
+    PoseRecipe::Matrix moved = pose;
+    for (int r = 0; r < 3; ++r)
+        moved[4 * r + 3] += pose[4 * r] * originB_.x() + pose[4 * r + 1] * originB_.y() +
+                            pose[4 * r + 2] * originB_.z() - originA_[r];
+    storePose(moved, out);
+}
+
+bool TableKernels::hit(const double* q) const {
+    std::uint32_t cell = 0;
+    if (!cells_.empty()) {
+        cell = cells_.rowAt(q);
+        const bool all = cells_.allTouch(cell);
+        if (static_cast<int>(all) | static_cast<int>(cells_.noneTouches(cell))) return all;
+    }
+    TableFeatures f;
+    f.cell = cell;
+    poseFeatures(q, f);
+    return hit(f);
+}
+
+void TableKernels::poseFeatures(const double* q, TableFeatures& out) const {
+    if (kernels_.pose) return kernels_.pose(plan_, q, out.doubles);
+    if (fold_) {
+        if (float_)
+            fold_->evaluate(q, out.floats);
+        else
+            fold_->evaluate(q, out.doubles);
+        return;
+    }
+    PoseRecipe::Matrix values;
+    recipe_.evaluate(q, values.data());
+    storePose(values, out);
+}
+
+void TableKernels::storePose(const PoseRecipe::Matrix& pose, TableFeatures& out) const {
+    if (float_) {
+        out.floats[0] = 0;
+        for (std::size_t k = 0; k < pose.size(); ++k) out.floats[k + 1] = float(pose[k]);
+    } else {
+        out.doubles[0] = 0;
+        for (std::size_t k = 0; k < pose.size(); ++k) out.doubles[k + 1] = pose[k];
+    }
+}
 
 KernelData TableKernels::blocksOf(const KernelData& data, std::size_t rowsEach, std::uint32_t part) const {
     const std::size_t number = float_ ? sizeof(float) : sizeof(double);
