@@ -1,11 +1,12 @@
 #include "bake/table/TableCells.h"
 
+#include "bake/base/Infinity.h"
+#include "bake/table/EvenParts.h"
 #include "bake/table/GapRanges.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tss {
@@ -79,7 +80,6 @@ public:
         cells_.dofs_ = dofs_;
         std::uint32_t stride = 1, shift = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
-            const Dof& dof = motion_.dofs[k];
             Axis& axis = cells_.axes_[k];
             axis.parts = 1u << halvings[k];
             axis.beyond = axis.parts + 1.0;
@@ -89,13 +89,9 @@ public:
             shift += axis.halvings;
             axis.stride = stride;
             stride <<= ofCells[k];
-            // A little over the limits, so that what rounding puts beyond them has a cell, and so that a DOF
-            // without a range has a width.
-            const double range = dof.upper - dof.lower;
-            const double size = std::max(std::abs(dof.lower), std::abs(dof.upper));
-            const double over = 1e-9 * range + 4 * std::numeric_limits<double>::epsilon() * size + 1e-290;
-            axis.lower = dof.lower - over;
-            axis.width = (range + 2 * over) / axis.parts;
+            const EvenParts even = evenParts(motion_.dofs[k], axis.parts);
+            axis.lower = even.lower;
+            axis.width = even.width;
             axis.perWidth = 1 / axis.width;
             axis.before = axis.lower - axis.width;
         }
@@ -105,7 +101,7 @@ public:
 
     /// Finds all rows: those of the cells of the grid, then those of the parts into which cells are cut where
     /// it is open whether a test touches.
-    void find(std::uint32_t lanes) {
+    void findRows(std::uint32_t lanes) {
         std::vector<std::uint32_t> all(pairs_.size());
         std::iota(all.begin(), all.end(), 0u);
         Piece limits;
@@ -117,58 +113,47 @@ public:
         const std::size_t blocks = (pairs_.size() + lanes - 1) / lanes;
         rowCodes_ = (blocks + headerCodes + codesPerGroup - 1) / codesPerGroup * codesPerGroup;
         const std::size_t parts = std::size_t(1) << partHalvings_;
-        if (parts > 1 && (found_.size() + open_.size() * parts) * rowCodes_ <= mostBytes) divide(parts);
+        if (parts > 1 && (found_.size() + open_.size() * parts) * rowCodes_ <= mostBytes)
+            divideOpenCells(parts);
     }
 
-    /// Blocks of tests that can touch in the same parts of the limits.
-    void put(std::uint32_t lanes) {
+    /// Orders the tests so that blocks of `lanes` hold tests that touch in the same parts of the limits: each
+    /// block begins with the next test by its mean place, and takes those that add fewest parts to it.
+    void orderTests(std::uint32_t lanes) {
         std::vector<std::uint32_t>& order = cells_.order_;
         order.resize(pairs_.size());
         std::iota(order.begin(), order.end(), 0u);
         if (lanes == 1) return;
-        // Rows were found by halving, those of neighbours near one another.
-        const std::size_t perPart = (found_.size() + mostParts - 1) / mostParts;
-        std::vector<Parts> parts(pairs_.size(), Parts{});
-        std::vector<double> sums(pairs_.size(), 0), rows(pairs_.size(), 0);
-        for (std::size_t row = 1; row < found_.size(); ++row)
-            for (const Near& near : found_[row].near) {
-                if (near.code > contactCode) continue;
-                const std::size_t part = row / perPart;
-                parts[near.pair][part / 64] |= std::uint64_t(1) << part % 64;
-                sums[near.pair] += double(row);
-                ++rows[near.pair];
-            }
-        std::vector<int> counts(pairs_.size(), 0); // of parts
-        for (std::size_t p = 0; p < pairs_.size(); ++p)
-            for (std::uint64_t word : parts[p]) counts[p] += std::popcount(word);
-        const auto place = [&](std::uint32_t p) { return rows[p] > 0 ? sums[p] / rows[p] : -1; };
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t x, std::uint32_t y) { return place(x) < place(y); });
+        const std::vector<Touching> touching = touchingParts();
+        std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {
+            return touching[x].meanRow < touching[y].meanRow;
+        });
         for (std::size_t first = 0; first < order.size(); first += lanes) {
-            Parts block = parts[order[first]];
+            Parts block = touching[order[first]].parts;
+            const auto added = [&](std::uint32_t test) {
+                int more = 0;
+                for (std::size_t w = 0; w < block.size(); ++w)
+                    more += std::popcount(touching[test].parts[w] & ~block[w]);
+                return more * 1024 - touching[test].count; // of equals the one that touches in most
+            };
             const std::size_t last = std::min(order.size(), first + lanes);
             for (std::size_t i = first + 1; i < last; ++i) {
-                const auto grown = [&](std::uint32_t p) {
-                    int more = 0;
-                    for (std::size_t w = 0; w < block.size(); ++w)
-                        more += std::popcount(parts[p][w] & ~block[w]);
-                    return more * 1024 - counts[p];
-                };
                 std::size_t best = i;
-                int least = grown(order[i]);
+                int least = added(order[i]);
                 for (std::size_t j = i + 1; j < std::min(order.size(), i + orderWindow); ++j)
-                    if (const int g = grown(order[j]); g < least) {
-                        least = g;
+                    if (const int more = added(order[j]); more < least) {
+                        least = more;
                         best = j;
                     }
                 // The others stay in their order.
                 std::rotate(order.begin() + i, order.begin() + best, order.begin() + best + 1);
-                for (std::size_t w = 0; w < block.size(); ++w) block[w] |= parts[order[i]][w];
+                for (std::size_t w = 0; w < block.size(); ++w) block[w] |= touching[order[i]].parts[w];
             }
         }
     }
 
-    void write(std::uint32_t lanes) {
+    /// Writes the codes of all rows, block by block, and how much of the blocks queries look at.
+    void writeRows(std::uint32_t lanes) {
         const std::size_t blocks = (pairs_.size() + lanes - 1) / lanes;
         std::vector<std::size_t> blockOf(pairs_.size());
         for (std::size_t i = 0; i < pairs_.size(); ++i) blockOf[cells_.order_[i]] = i / lanes;
@@ -196,60 +181,99 @@ public:
     }
 
 private:
+    /// A box of the limits: its first part and its size in parts, along each DOF.
     struct Piece {
         std::array<std::int32_t, maxDofs> first{}, size{};
     };
+    /// A test that matters in a row.
+    struct Near {
+        std::uint32_t pair;
+        std::uint8_t code;
+    };
+    struct Row {
+        std::vector<Near> near;
+        std::uint8_t reached = farCode;
+    };
 
-    /// Halves a piece of the limits down to the grid, or of a cell down to its parts, of which the first has
-    /// row `firstRow`.
-    void halve(const Piece& piece, const std::vector<std::uint32_t>& list, std::size_t depth,
-               std::uint32_t firstRow = 0) {
-        const bool inCell = firstRow != 0;
-        const bool leaf = depth == (inCell ? order_.size() : cellHalvings_);
+    /// Where a test touches.
+    struct Touching {
+        Parts parts{};       ///< of the limits
+        int count = 0;       ///< of these
+        double meanRow = -1; ///< of those in which it may touch; -1: none
+    };
+    std::vector<Touching> touchingParts() const {
+        // Rows were found by halving, those of neighbours near one another.
+        const std::size_t perPart = (found_.size() + mostParts - 1) / mostParts;
+        std::vector<Touching> touching(pairs_.size());
+        std::vector<double> sums(pairs_.size(), 0), rows(pairs_.size(), 0);
+        for (std::size_t row = 1; row < found_.size(); ++row)
+            for (const Near& near : found_[row].near) {
+                if (near.code > contactCode) continue;
+                const std::size_t part = row / perPart;
+                touching[near.pair].parts[part / 64] |= std::uint64_t(1) << part % 64;
+                sums[near.pair] += double(row);
+                ++rows[near.pair];
+            }
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            if (rows[p] > 0) touching[p].meanRow = sums[p] / rows[p];
+            for (const std::uint64_t word : touching[p].parts) touching[p].count += std::popcount(word);
+        }
+        return touching;
+    }
+
+    /// How near the tests of a list come in a piece of the limits, in the list's order.
+    struct Nearness {
+        std::vector<double> lows;  ///< the least gap that each may have
+        double reached = infinity; ///< everywhere some gap is at most this
+        double matters = 0;        ///< a test farther away is neither near nor ever the nearest
+    };
+    Nearness nearness(const Piece& piece, const std::vector<std::uint32_t>& list) const {
         DofValues centre{}, half{}, way;
         way.fill(1);
-        std::uint32_t cell = 0, part = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
             const Axis& axis = cells_.axes_[k];
-            const auto first = static_cast<std::uint32_t>(piece.first[k]);
             centre[k] = axis.lower + axis.width * (piece.first[k] + 0.5 * piece.size[k]);
             half[k] = 0.5 * axis.width * piece.size[k] * (1 + GapRanges::wider);
-            cell += (first >> axis.halvings) * axis.stride;
-            part += (first & axis.partMask) << axis.partShift;
         }
         MotionFrame frame;
         evaluateFrame(motion_, centre.data(), way.data(), frame);
-        std::vector<double> lows(list.size());
-        double reached = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const GapRanges::Range found = ranges_.range(list[i], frame, half);
-            lows[i] = found.low;
-            reached = std::min(reached, found.high);
+        Nearness found;
+        found.lows.reserve(list.size());
+        for (const std::uint32_t pair : list) {
+            const GapRanges::Range range = ranges_.range(pair, frame, half);
+            found.lows.push_back(range.low);
+            found.reached = std::min(found.reached, range.high);
         }
-        // A test that is neither near nor ever the nearest does not matter here.
-        const double matters = std::max(reached, nearGap_);
-        if (leaf) {
-            Row row;
-            row.reached = cells_.code(reached);
-            bool touches = false;
-            for (std::size_t i = 0; i < list.size(); ++i) {
-                if (lows[i] > matters) continue;
-                row.near.push_back({list[i], cells_.code(lows[i])});
-                touches = touches || row.near.back().code <= contactCode;
-            }
-            if (inCell) {
-                found_[firstRow + part] = std::move(row);
-                return;
-            }
-            if (touches && row.reached > contactCode) open_.push_back(piece);
-            cells_.grid_[cell].first = static_cast<std::uint32_t>(found_.size());
-            cells_.cellOf_.push_back(cell);
-            found_.push_back(std::move(row));
-            return;
-        }
+        found.matters = std::max(found.reached, nearGap_);
+        return found;
+    }
+
+    /// The cell of the grid that the piece begins in, and the place of its first part there.
+    std::uint32_t cellOf(const Piece& piece) const {
+        std::uint32_t cell = 0;
+        for (std::size_t k = 0; k < dofs_; ++k)
+            cell += (static_cast<std::uint32_t>(piece.first[k]) >> cells_.axes_[k].halvings) *
+                    cells_.axes_[k].stride;
+        return cell;
+    }
+    std::uint32_t partOf(const Piece& piece) const {
+        std::uint32_t part = 0;
+        for (std::size_t k = 0; k < dofs_; ++k)
+            part += (static_cast<std::uint32_t>(piece.first[k]) & cells_.axes_[k].partMask)
+                    << cells_.axes_[k].partShift;
+        return part;
+    }
+
+    /// Halves a piece of the limits down to the cells of the grid, or with a `firstRow` a cell down to its
+    /// parts, of which the first has that row.
+    void halve(const Piece& piece, const std::vector<std::uint32_t>& list, std::size_t depth,
+               std::uint32_t firstRow = 0) {
+        const Nearness found = nearness(piece, list);
+        if (depth == (firstRow != 0 ? order_.size() : cellHalvings_))
+            return addRow(piece, list, found, firstRow);
         std::vector<std::uint32_t> near;
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (!(lows[i] > matters)) near.push_back(list[i]);
+            if (!(found.lows[i] > found.matters)) near.push_back(list[i]);
         const std::size_t k = order_[depth];
         Piece lower = piece, upper = piece;
         lower.size[k] = upper.size[k] = piece.size[k] / 2;
@@ -258,12 +282,30 @@ private:
         halve(upper, near, depth + 1, firstRow);
     }
 
-    void divide(std::size_t parts) {
+    /// The row of a cell, or of a part of one.
+    void addRow(const Piece& piece, const std::vector<std::uint32_t>& list, const Nearness& found,
+                std::uint32_t firstRow) {
+        Row row;
+        row.reached = cells_.code(found.reached);
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (!(found.lows[i] > found.matters)) row.near.push_back({list[i], cells_.code(found.lows[i])});
+        if (firstRow != 0) {
+            found_[firstRow + partOf(piece)] = std::move(row);
+            return;
+        }
+        const bool touches =
+            std::ranges::any_of(row.near, [](const Near& near) { return near.code <= contactCode; });
+        if (touches && row.reached > contactCode) open_.push_back(piece);
+        const std::uint32_t cell = cellOf(piece);
+        cells_.grid_[cell].first = static_cast<std::uint32_t>(found_.size());
+        cells_.cellOf_.push_back(cell);
+        found_.push_back(std::move(row));
+    }
+
+    /// Cuts the open cells into `parts` rows each, behind those of the cells.
+    void divideOpenCells(std::size_t parts) {
         for (const Piece& piece : open_) {
-            std::uint32_t cell = 0;
-            for (std::size_t k = 0; k < dofs_; ++k)
-                cell += (static_cast<std::uint32_t>(piece.first[k]) >> cells_.axes_[k].halvings) *
-                        cells_.axes_[k].stride;
+            const std::uint32_t cell = cellOf(piece);
             GridCell& entry = cells_.grid_[cell];
             std::vector<std::uint32_t> list;
             for (const Near& near : found_[entry.first].near) list.push_back(near.pair);
@@ -274,16 +316,6 @@ private:
             halve(piece, list, cellHalvings_, entry.first);
         }
     }
-
-    /// A test that matters in a row.
-    struct Near {
-        std::uint32_t pair;
-        std::uint8_t code;
-    };
-    struct Row {
-        std::vector<Near> near;
-        std::uint8_t reached = farCode;
-    };
 
     TableCells& cells_;
     const Motion& motion_;
@@ -303,9 +335,9 @@ TableCells::TableCells(const Motion& motion, std::span<const TablePair> pairs, s
     Maker maker(*this, motion, pairs);
     if (!maker.moves()) return;
     maker.cut();
-    maker.find(lanes);
-    maker.put(lanes);
-    maker.write(lanes);
+    maker.findRows(lanes);
+    maker.orderTests(lanes);
+    maker.writeRows(lanes);
 }
 
 std::uint8_t TableCells::code(double gap) const {

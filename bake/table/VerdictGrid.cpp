@@ -1,11 +1,11 @@
 #include "bake/table/VerdictGrid.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/table/EvenParts.h"
 #include "bake/table/GapRanges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace tss {
@@ -61,7 +61,7 @@ private:
         Place first{}, size{1, 1, 1};
     };
 
-    /// Always across the DOF that moves most within a cell.
+    /// Cuts the limits into cells and these into parts, always across the DOF that moves most within one.
     void cut() {
         const std::size_t dofs = motion_.dofCount();
         std::array<double, 3> move{};
@@ -83,17 +83,12 @@ private:
         std::uint32_t stride = 1, shift = 0;
         grid_.dofs_ = dofs;
         for (std::size_t k = 0; k < dofs; ++k) {
-            const Dof& dof = motion_.dofs[k];
             Axis& axis = grid_.axes_[k];
-            // A little over the limits, so that what rounding puts beyond them has a cell, and so that a DOF
-            // without a range has a width.
-            const double range = dof.upper - dof.lower;
-            const double size = std::max(std::abs(dof.lower), std::abs(dof.upper));
-            const double over = 1e-9 * range + 4 * std::numeric_limits<double>::epsilon() * size + 1e-290;
+            const EvenParts even = evenParts(motion_.dofs[k], cells[k]);
             axis.cells = cells[k];
             axis.beyond = cells[k] + 1.0;
-            axis.lower = dof.lower - over;
-            axis.width = (range + 2 * over) / cells[k];
+            axis.lower = even.lower;
+            axis.width = even.width;
             axis.perWidth = 1 / axis.width;
             axis.before = axis.lower - axis.width;
             axis.stride = stride;
@@ -127,7 +122,8 @@ private:
         return least;
     }
 
-    /// Each half has half of the effort, the second also what the first leaves; what both leave is returned.
+    /// Finds the codes of a block: at once where one holds all over it, else of its halves. Each half has
+    /// half of the effort, the second also what the first leaves; returns what both leave.
     std::uint64_t halve(const Block& block, std::span<const std::uint32_t> list, std::size_t depth,
                         std::uint64_t effort) {
         const Box box = grid_.box(block.first, block.size);
@@ -145,11 +141,12 @@ private:
             gap.low > 0 ? std::min(freeCode + std::floor(gap.low / grid_.unit_), mostCode) : 0;
         const bool enough = gap.low > 0 && (told == mostCode || move <= enoughOf * gap.low);
         effort -= std::min<std::uint64_t>(effort, list.size());
-        if (gap.high <= band_) return write(block, depth, touchCode), effort;
-        const bool cell = depth == cellHalvings_;
-        if (enough || depth == order_.size() || effort < 2 * near.size() ||
-            (cell && (told > 0 || !divide(block.first))))
-            return write(block, depth, static_cast<std::uint8_t>(told)), effort;
+        const bool touches = gap.high <= band_, cell = depth == cellHalvings_;
+        if (touches || enough || depth == order_.size() || effort < 2 * near.size() ||
+            (cell && (told > 0 || !divide(block.first)))) {
+            write(block, depth, touches ? touchCode : static_cast<std::uint8_t>(told));
+            return effort;
+        }
         const std::size_t k = order_[depth];
         Block lower = block, upper = block;
         lower.size[k] = upper.size[k] = block.size[k] / 2;
