@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tss::verify {
 
@@ -144,13 +145,29 @@ double MeshBox::bound(const Near& test, const Vec3& lambda, const Shape& a, cons
     return test.gap + lambda.dot(at.at - a.slab.centre) + patches + motion + rounding;
 }
 
+// The matrix whose inverse times the negative slopes of a test is the lambda for which bound() is about
+// least: by how much the joint, the pieces and the bend move T(q) y - x along each direction, squared and
+// summed.
+Eigen::Matrix3d MeshBox::spread(const Shape& a, const Shape& b, const MovingPoint& at) const {
+    Eigen::Matrix3d sum =
+        Eigen::Matrix3d::Identity() * (at.bend * at.bend + 1e-4 * scale_ * scale_ + 1e-300); // never singular
+    for (std::size_t l = 0; l < box_->dofs(); ++l) {
+        const Vec3 v = at.velocity[l] * box_->half(l);
+        sum += v * v.transpose();
+    }
+    const auto add = [&](const Slab& s, const Vec3& axis) {
+        sum += s.radius * s.radius * Eigen::Matrix3d::Identity() +
+               (s.half * s.half - s.radius * s.radius) * axis * axis.transpose();
+    };
+    add(a.slab, a.slab.axis);
+    add(b.slab, box_->pose().linear() * b.slab.axis);
+    return sum;
+}
+
 bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur) {
     const double limit = claim_.miss + 0.5 * claim_.band;
-    const bool bent = !std::isfinite(at.bend);
-    Eigen::Matrix3d inverse;
-    bool inverted = false;
     double best = infinity;
-    const auto tries = [&](const Near& test, const Vec3& lambda) {
+    const auto within = [&](const Near& test, const Vec3& lambda) {
         double patches = 0;
         const double gap = bound(test, lambda, a, b, at, patches);
         if (gap < best) {
@@ -160,44 +177,28 @@ bool MeshBox::answered(const Shape& a, const Shape& b, const MovingPoint& at, Ve
         }
         return gap <= limit;
     };
-    const std::size_t count =
-        at.move < smallBox * largestContact_ ? near_.size() : std::min(mostTried, near_.size());
-    for (std::size_t n = 0; n < count; ++n) {
-        const Near& test = near_[n];
+    std::optional<Eigen::Matrix3d> inverse; // of spread(), once it is needed
+    const auto answers = [&](const Near& test) {
         const MeshTest& t = claim_.tests[test.test];
-        bool yes = a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <=
-                   t.contactDistance + limit;
-        if (!yes && !bent) {
-            yes = tries(test, -test.normal);
-            if (!yes) {
-                if (!inverted) {
-                    Eigen::Matrix3d m =
-                        Eigen::Matrix3d::Identity() * (at.bend * at.bend + 1e-4 * scale_ * scale_ + 1e-300);
-                    for (std::size_t l = 0; l < box_->dofs(); ++l) {
-                        const Vec3 v = at.velocity[l] * box_->half(l);
-                        m += v * v.transpose();
-                    }
-                    const auto add = [&](const Slab& s, const Vec3& axis) {
-                        m += s.radius * s.radius * Eigen::Matrix3d::Identity() +
-                             (s.half * s.half - s.radius * s.radius) * axis * axis.transpose();
-                    };
-                    add(a.slab, a.slab.axis);
-                    add(b.slab, box_->pose().linear() * b.slab.axis);
-                    inverse = m.inverse();
-                    inverted = true;
-                }
-                Vec3 right = Vec3::Zero();
-                for (std::size_t l = 0; l < box_->dofs(); ++l)
-                    right -= at.velocity[l] * (test.slope[l] * box_->half(l) * box_->half(l));
-                yes = tries(test, inverse * right);
-            }
-        }
-        if (!yes) continue;
-        // Neighbours are answered by the same test more often than not.
-        std::rotate(near_.begin(), near_.begin() + n, near_.begin() + n + 1);
-        return true;
-    }
-    return false;
+        if (a.slab.farthest(t.centreA) + b.slab.farthest(t.centreB) + claim_.near <=
+            t.contactDistance + limit)
+            return true;
+        if (!std::isfinite(at.bend)) return false;
+        if (within(test, -test.normal)) return true;
+        if (!inverse) inverse = spread(a, b, at).inverse();
+        Vec3 slopes = Vec3::Zero();
+        for (std::size_t l = 0; l < box_->dofs(); ++l)
+            slopes -= at.velocity[l] * (test.slope[l] * box_->half(l) * box_->half(l));
+        return within(test, *inverse * slopes);
+    };
+    const auto tried =
+        near_.begin() +
+        (at.move < smallBox * largestContact_ ? near_.size() : std::min(mostTried, near_.size()));
+    const auto found = std::find_if(near_.begin(), tried, answers);
+    if (found == tried) return false;
+    // Neighbours are answered by the same test more often than not.
+    std::rotate(near_.begin(), found, found + 1);
+    return true;
 }
 
 MeshBox::Verdict MeshBox::weigh(const PiecePair& pair) {

@@ -44,14 +44,21 @@ private:
         Vec3 normal;
         std::array<double, maxDofs> slope;
     };
+    /// What to do about a pair of pieces in the box: nothing more, halve a piece, or halve the box.
     enum class Verdict { Done, SplitPair, SplitBox };
 
+    // Where the middle of a piece of B is over the box: `at` below.
     const Moved& moved(std::int32_t node);
+
     bool weighTest(std::uint32_t test);
     bool weighTests();
     Verdict weigh(const PiecePair& pair);
+    /// The pieces stay farther apart than the claim allows, all over the box.
     bool apart(const Shape& a, const Shape& b, const MovingPoint& at) const;
+    /// Some test fires wherever in the box the pieces meet. If not, `blur` is what loosens the bounds most.
     bool answered(const Shape& a, const Shape& b, const MovingPoint& at, Verdict& blur);
+    Eigen::Matrix3d spread(const Shape& a, const Shape& b, const MovingPoint& at) const;
+    /// patches: receives the part of the bound that smaller pieces would lower.
     double bound(const Near& test, const Vec3& lambda, const Shape& a, const Shape& b, const MovingPoint& at,
                  double& patches) const;
     void halve(const PiecePair& pair, std::vector<PiecePair>& stack);
