@@ -17,6 +17,7 @@ using namespace verify;
 
 namespace {
 
+/// How far a kernel's gap may be off at this gap. error: of the squared distance; u: one roundoff.
 double gapError(double u, double error, double contactDistance, double gap) {
     const double distance = std::max(0.0, contactDistance + gap), squared = distance * distance;
     // The square is rounded once more and the square root once; the contact distance and the difference once
@@ -67,6 +68,54 @@ double tried(const Table& table, const PreparedTable& prepared, const TriedPoses
     return worst;
 }
 
+/// Bounds what each test's rounding may do; `verdict` receives by how much it may report early and how far
+/// its gap may be off. Returns what is wrong; empty: the rounding is within the kernel's bands.
+std::string refuteRounding(const PreparedTable& prepared, const std::vector<Exact>& tests,
+                           const std::optional<FeatureFormErrors>& fold,
+                           const std::optional<DirectPose>& direct, KernelVerdict& verdict) {
+    const StoredTests stored(prepared);
+    if (!stored.eachOnce()) return "its blocks do not hold every test once";
+    if (direct && !direct->agrees())
+        return "the kernel's rotation or translation is another than the motion's";
+    const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53;
+    for (std::size_t p = 0; p < tests.size(); ++p) {
+        const Exact& test = tests[p];
+        const PairErrors errors = fold ? fold->of(p, test)
+                                       : directErrors(prepared, stored[p], test,
+                                                      prepared.kernels().farthestT(), direct->rounding());
+        // d^2 - c |c| <= -low means d <= sqrt(c |c| - low). A test with c < 0 never says contact, unless by
+        // that.
+        const double c = test.contactDistance, most = c * std::abs(c) - std::min(0.0, errors.sign.low);
+        if (c >= 0 || most > 0) verdict.early = std::max(verdict.early, std::sqrt(most) - c);
+        for (double gap : {-prepared.kernels().depth(), 0.0, prepared.kernels().margin()})
+            verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.contactDistance, gap));
+        if (errors.sign.high > 0 && test.contactDistance >= 0)
+            return fmt::format(
+                "test {} may miss a touch: its squared distance may be {:.3g} scene units squared too large",
+                p, errors.sign.high);
+    }
+    if (verdict.early > prepared.signBand() * (1 + 1e-6))
+        return fmt::format(
+            "it may report contact {:.3g} scene units before the table does, more than its band of {:.3g}",
+            verdict.early, prepared.signBand());
+    return {};
+}
+
+/// The same of what is left out without asking a test, and of the answers at some poses.
+std::string refuteAnswers(const Table& table, const PreparedTable& prepared, const TriedPoses& poses,
+                          const std::vector<Exact>& tests, const std::optional<DirectPose>& direct,
+                          KernelVerdict& verdict) {
+    std::string reason;
+    verdict.seen = tried(table, prepared, poses, direct, reason);
+    if (!reason.empty()) return reason;
+    if (verdict.seen > verdict.gapOff)
+        return fmt::format("its gap was off by {:.3g} scene units at a pose, more than {:.3g}", verdict.seen,
+                           verdict.gapOff);
+    if (reason = refuteCells(table, prepared); !reason.empty()) return reason;
+    if (direct) reason = refuteClusters(prepared, tests, direct->rounding());
+    return reason.empty() ? refuteVerdicts(table, prepared) : reason;
+}
+
 } // namespace
 
 TriedPoses posesToTry(const Table& table) {
@@ -103,47 +152,16 @@ KernelVerdict verifyKernel(const Table& table, const PreparedTable& prepared, co
         verdict.proven = true;
         return verdict;
     }
-    const bool fold = prepared.form() == KernelForm::Fold;
-    const double u = prepared.precision() == KernelPrecision::Float ? 0x1p-24 : 0x1p-53;
-    std::optional<FeatureFormErrors> foldErrors;
+    std::optional<FeatureFormErrors> fold;
     std::optional<DirectPose> direct;
-    if (fold)
-        foldErrors.emplace(table, prepared, tests);
+    if (prepared.form() == KernelForm::Fold)
+        fold.emplace(table, prepared, tests);
     else
         direct.emplace(table, prepared, tests);
-    if (direct && !direct->agrees())
-        verdict.reason = "the kernel's rotation or translation is another than the motion's";
-    const StoredTests stored(prepared);
-    if (!stored.eachOnce()) verdict.reason = "its blocks do not hold every test once";
-    for (std::size_t p = 0; p < tests.size() && verdict.reason.empty(); ++p) {
-        const Exact& test = tests[p];
-        const PairErrors errors = fold ? foldErrors->of(p, test)
-                                       : directErrors(prepared, stored[p], test,
-                                                      prepared.kernels().farthestT(), direct->rounding());
-        if (errors.sign.high > 0 && test.contactDistance >= 0)
-            verdict.reason = fmt::format(
-                "test {} may miss a touch: its squared distance may be {:.3g} scene units squared too large",
-                p, errors.sign.high);
-        // d^2 - c |c| <= -low means d <= sqrt(c |c| - low). A test with c < 0 never says contact, unless by
-        // that.
-        const double c = test.contactDistance, most = c * std::abs(c) - std::min(0.0, errors.sign.low);
-        if (c >= 0 || most > 0) verdict.early = std::max(verdict.early, std::sqrt(most) - c);
-        for (double gap : {-prepared.kernels().depth(), 0.0, prepared.kernels().margin()})
-            verdict.gapOff = std::max(verdict.gapOff, gapError(u, errors.square, test.contactDistance, gap));
-    }
-    if (verdict.reason.empty() && verdict.early > prepared.signBand() * (1 + 1e-6))
-        verdict.reason = fmt::format(
-            "it may report contact {:.3g} scene units before the table does, more than its band of {:.3g}",
-            verdict.early, prepared.signBand());
+    verdict.reason = refuteRounding(prepared, tests, fold, direct, verdict);
     verdict.gapOff += turnRounding(table.motion, pathSize(table.motion, tests), 0x1p-53);
-    if (verdict.reason.empty()) verdict.seen = tried(table, prepared, poses, direct, verdict.reason);
-    if (verdict.reason.empty() && verdict.seen > verdict.gapOff)
-        verdict.reason = fmt::format("its gap was off by {:.3g} scene units at a pose, more than {:.3g}",
-                                     verdict.seen, verdict.gapOff);
-    if (verdict.reason.empty()) verdict.reason = refuteCells(table, prepared);
-    if (verdict.reason.empty() && direct)
-        verdict.reason = refuteClusters(prepared, tests, direct->rounding());
-    if (verdict.reason.empty()) verdict.reason = refuteVerdicts(table, prepared);
+    if (verdict.reason.empty())
+        verdict.reason = refuteAnswers(table, prepared, poses, tests, direct, verdict);
     verdict.proven = verdict.reason.empty();
     return verdict;
 }

@@ -64,16 +64,14 @@ private:
     bool eachOnce_ = false;
 };
 
-/// What of the error of a squared distance does not depend on the pair's own numbers.
 struct Bounds {
     double low, high; ///< how far a kernel's number may be below and above the exact one
 };
 
-/// The claim about one pair from the errors of its squared distance less its squared contact distance
-/// (`sign`, where that is about 0) and of its squared distance (`square`, at gaps asked for).
+/// Errors of what a kernel works out for one pair.
 struct PairErrors {
-    Bounds sign;
-    double square;
+    Bounds sign;   ///< of the squared distance less the squared contact distance, where that is about 0
+    double square; ///< of the squared distance, at gaps asked for
 };
 
 /// Errors of the fold, pair by pair.
