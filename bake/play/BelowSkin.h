@@ -11,7 +11,7 @@ namespace tss {
 /// The muscles and bones below a skin in one place: how deep points of the skin are in them.
 class ShapesBelow {
 public:
-    /// Of each point, in the skin's frame, how deep it is in what it is deepest in; 0: outside of all.
+    /// How deep each point, in the skin's frame, is in the shape that it is deepest in; 0: outside of all.
     std::vector<double> depths(std::span<const Vec3> points) const;
 
 private:

@@ -30,7 +30,7 @@ public:
     /// links.
     void evaluate(const double* values, Matrix* places) const;
 
-    /// The same of poseLanes configurations at once: values of each, places one per body.
+    /// The same for poseLanes configurations at once. values: one array for each; places: one per body.
     void evaluate(const double* const* values, BodyLanes* places) const;
 
     /// The transform from B's frame to A's, from the places of both.

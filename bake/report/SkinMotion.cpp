@@ -31,7 +31,7 @@ double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles
     return area;
 }
 
-/// Of all vertices of a skin those that a rig moves.
+/// The places of the vertices that a rig moves. all: those of all vertices of its skin.
 std::vector<Vec3> placesOf(const std::vector<Vec3>& all, const SkinRig& rig) {
     std::vector<Vec3> places;
     for (const std::uint32_t v : rig.vertices) places.push_back(all[v]);

@@ -66,7 +66,7 @@ struct RegionCurve {
     std::vector<double> middle, share;
     double lower = 0, upper = 0; ///< equal: there is none
 
-    /// Of the samples in the region those that collide.
+    /// The share of the samples in the region that collide.
     double meanShare() const;
     bool contains(double value) const { return upper > lower && value >= lower && value <= upper; }
 };

@@ -88,7 +88,7 @@ void forElements(const TypedSample& typed, const Visit& visit) {
     visit(TypedValue{typed.sample.value, typed.asFloat});
 }
 
-/// Of a value that is an array.
+/// Calls visit for each element of a value that is an array.
 template <class Visit>
 void forElements(const TypedValue& typed, const Visit& visit) {
     for (const Value& element : *typed.value.as<Value::Array>()) visit(TypedValue{element, typed.asFloat});

@@ -318,7 +318,7 @@ void writeTable(Layer& layer, PrimWriter& prim, const std::string& path, const T
     writeSpheres(layer, path, spheres1, "Spheres1", table.b);
 }
 
-/// Of a pair or a skin; the table by `write`, unless there is none.
+/// Stores what was baked for a pair or a skin: `write` fills the prim, unless there is nothing.
 template <class Owned, class Write>
 void store(Layer& layer, const Owned& owned, bool any, const char* type, const Write& write) {
     Prim* owner = findPrim(layer, owned.path);

@@ -33,7 +33,7 @@ public:
     double threshold(SpherePair pair) const { return excepts(pair) ? threshold_ : 0; }
     bool touches(SpherePair pair, double gap) const { return gap <= threshold(pair); }
 
-    /// Of excepted pairs.
+    /// The one of all excepted pairs.
     double threshold() const { return threshold_; }
 
     /// Thresholds of a list of pairs; empty when all are 0.

@@ -52,7 +52,7 @@ struct KernelSet {
     std::uint32_t (*testsWithin)(const KernelData& data, const void* pose, double margin,
                                  std::uint32_t* out) = nullptr;
 
-    /// The same of some blocks.
+    /// The same queries of some blocks only.
     bool (*hitNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
     KernelGap (*gapNear)(const KernelData& data, const void* pose, const NearBlocks& near) = nullptr;
     std::uint32_t (*testsWithinNear)(const KernelData& data, const void* pose, const NearBlocks& near,

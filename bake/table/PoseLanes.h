@@ -39,7 +39,7 @@ struct LaneKernels {
                     bool floats, PoseLanes& out) = nullptr;
 };
 
-/// Of a target that is available.
+/// target: one that is available.
 LaneKernels laneKernels(KernelTarget target);
 
 } // namespace tss

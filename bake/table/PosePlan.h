@@ -33,7 +33,7 @@ struct PosePlan {
 
     PosePlan() = default;
     explicit PosePlan(const FeatureForm& form);
-    /// Of a recipe without paths, of one DOF at least.
+    /// The recipe must be free of paths and have at least one DOF.
     explicit PosePlan(const PoseRecipe& recipe);
 
 private:

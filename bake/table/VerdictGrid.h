@@ -69,7 +69,7 @@ public:
     Box box(const Place& first, const Place& size) const;
     Verdict verdictOf(const Place& part) const { return verdictOf(codeOf(part)); }
     double clearanceOf(const Place& part) const { return clearanceOf(codeOf(part)); }
-    /// Of one DOF: from this value on, up to the next one's, this is the verdict where a cell is open.
+    /// With one DOF: the verdict in open cells from this value on, up to that of the next piece.
     struct Piece {
         double from = 0;
         Verdict verdict = Verdict::Ask;

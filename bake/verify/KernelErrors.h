@@ -23,7 +23,7 @@ public:
         return single_ ? read<float>(column) : read<double>(column);
     }
     double fromEnd(std::size_t column) const { return (*this)[width_ - column]; }
-    /// Of the test.
+    /// The number of its test.
     std::int64_t number() const {
         return single_ ? read<std::int32_t>(width_ - 1) : read<std::int64_t>(width_ - 1);
     }
@@ -110,7 +110,7 @@ public:
     double rounding() const { return rounding_; }
     /// What the kernel does is no more than rounding.
     bool agrees() const { return worst_ <= rounding_; }
-    /// The same of what it is given at some values, rounded once more to float.
+    /// The same for the features of the pose at some values, which are rounded once more to float.
     bool agreesAt(const PreparedTable& prepared, const ExactPose& at, const TableFeatures& f) const;
 
 private:

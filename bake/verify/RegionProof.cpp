@@ -40,7 +40,7 @@ std::vector<std::vector<SurfacePart>> pieces(const TriangleMesh& mesh,
     return found;
 }
 
-/// Of the smaller body's diagonal.
+/// A share of the smaller body's diagonal.
 constexpr double closeShare = 0.02;
 
 /// How far the piece, moved, is from the body, what closes its openings counted; 0: it is in it.

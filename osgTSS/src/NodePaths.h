@@ -18,7 +18,7 @@ inline bool isBelow(const osg::Node& node, const osg::Node& above) {
     return false;
 }
 
-/// Of a transform alone.
+/// The matrix of a transform by itself.
 inline osg::Matrixd ownMatrix(const osg::Transform& transform) {
     osg::Matrix matrix;
     transform.computeLocalToWorldMatrix(matrix, nullptr);

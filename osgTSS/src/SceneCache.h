@@ -52,13 +52,14 @@ struct Scene::Cache {
 
     std::shared_ptr<SharedPlan> plan(const std::vector<std::string>& pairPaths);
 
-    /// Of one muscle, in the frame of its own surface. Throws tss::InputError.
+    /// The deformer of a muscle, in the frame of its own surface. Throws tss::InputError.
     std::shared_ptr<const tss::MuscleDeformer> muscle(int index);
 
-    /// Of one skin, with its muscles in the skin's frame; null when it has no table. Throws tss::InputError.
+    /// The rig of a skin, with its muscles in the skin's frame; null when it has no table. Throws
+    /// tss::InputError.
     std::shared_ptr<const tss::SkinRig> rig(int index);
 
-    /// Of all callbacks of the scene. In update and event traversals only.
+    /// The time of all callbacks of the scene. In update and event traversals only.
     UpdateTime updateTime;
 
 private:

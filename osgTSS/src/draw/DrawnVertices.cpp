@@ -14,7 +14,7 @@ namespace osgTSS {
 
 namespace {
 
-/// Of the mesh's size: float coordinates that went through a file or another unit agree to this.
+/// A share of the mesh's size: float coordinates that went through a file or another unit agree to this.
 constexpr double same = 1e-5;
 
 std::size_t nearestCorner(const tss::TriangleMesh& mesh, const tss::MeshQuery& surface,

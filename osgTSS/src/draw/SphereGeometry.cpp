@@ -19,7 +19,7 @@ struct Triangles {
     }
 };
 
-/// Of few triangles.
+/// A sphere of few triangles.
 struct UnitSphere {
     std::vector<osg::Vec3> points;
     std::vector<unsigned int> corners; ///< three a triangle

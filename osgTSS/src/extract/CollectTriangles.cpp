@@ -48,7 +48,7 @@ private:
     std::map<osg::Vec3d, int> _vertexAt;
 };
 
-/// Of a drawable that says its points itself.
+/// Takes triangles from a drawable that says their points itself.
 struct Points {
     Collector* collector = nullptr;
     void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c) { collector->add(a, b, c); }

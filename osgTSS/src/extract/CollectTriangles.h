@@ -26,7 +26,7 @@ std::vector<std::array<unsigned int, 3>> trianglesOf(const osg::Geometry& geomet
 /// makes surface of, or several instances, which one places.
 bool drawsByShader(const osg::Drawable& drawable);
 
-/// Of the upper 3x3 part: below 0 where the matrix mirrors.
+/// The determinant of the upper 3x3 part, below 0 where the matrix mirrors.
 double determinant(const osg::Matrixd& matrix);
 
 } // namespace osgTSS

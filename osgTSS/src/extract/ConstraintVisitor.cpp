@@ -168,8 +168,8 @@ void ConstraintVisitor::apply(osg::Projection&) {}
 
 void ConstraintVisitor::apply(osg::Billboard&) {}
 
-/// Of the levels the finest, seen from nearest or covering the most pixels, and what is drawn together with
-/// it at some distance.
+/// Visits the finest level, the one seen from nearest or covering the most pixels, and those that are drawn
+/// together with it at some distance.
 void ConstraintVisitor::traverseLevels(osg::LOD& node) {
     const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node);
     if (paged && paged->getNumFileNames() > paged->getNumChildren()) count(_paging);

@@ -32,8 +32,8 @@ public:
     /// Names the joints and the bodies of a place by the model's paths.
     void tag(const PairPlace& place);
 
-    /// What of the graph the tables and proofs do not know, a line each: pairs whose joints are there but fit
-    /// nowhere, and joints that the graph shows several times.
+    /// Warnings, a line each, of what the tables and proofs do not know in the graph: pairs whose joints are
+    /// there but fit nowhere, and joints that the graph shows several times.
     std::vector<std::string> unknown();
 
 private:

@@ -42,7 +42,8 @@ struct SoftParts {
     std::size_t setWeights(tss::SceneModel& scene, int body, osgAnimation::RigGeometry& rig, double scale,
                            const std::function<int(const std::string&)>& bodyOf);
 
-    /// Of a mesh whose shape something else makes: bones do not turn it, it moves with its carrier alone.
+    /// The same for a mesh whose shape something else makes: bones do not turn it, it moves with its carrier
+    /// alone.
     void setCarried(tss::SceneModel& scene, int body);
 
     /// Puts them into the model: muscles get their fibres, skins what lies below them. tell: hears what

@@ -15,7 +15,7 @@ namespace osgTSS {
 
 namespace {
 
-/// Of the size of what is compared: float coordinates that were moved once or twice agree to this.
+/// A share of the size of what is compared: float coordinates that were moved once or twice agree to it.
 constexpr double same = 1e-5;
 
 /// Area, and the area's first and second moments about a point: what does not depend on how it is cut.

@@ -31,7 +31,7 @@ public:
     std::vector<Channels> of(const osg::Node& node, const std::string& target) const;
 
 private:
-    /// Of each animation of the managers that stand on one node, by target.
+    /// The channels of each animation of the managers that stand on one node, by target.
     using Managed = std::multimap<std::string, Channels>;
     std::map<const osg::Node*, Managed> _managed;
 };

@@ -27,8 +27,8 @@ public:
 
     const std::vector<tss::Dof>& dofs() const { return _dofs; }
     tss::Pose poseAt(const std::vector<double>& values) const;
-    /// Of the two ways in which three turns make a rotation the one that the limits allow, or nearly. What of
-    /// the pose no DOF can do is left out.
+    /// The values at a pose, less what of it no DOF can do. Three turns make a rotation in two ways: the one
+    /// that the limits allow, or nearly, is taken.
     std::vector<double> valuesOf(const tss::Pose& pose) const;
 
 private:

@@ -79,7 +79,7 @@ private:
         bool fits = false; ///< it is what the values give
     };
 
-    /// Of the matrix now; asked for several times a frame.
+    /// What the bone's matrix says now; kept, as it is asked for several times a frame.
     const Look& look() const {
         const osg::Matrixd& matrix = _node->getMatrix();
         if (!_look.values.empty() && _look.matrix == matrix) return _look;

@@ -33,7 +33,7 @@ public:
         }
     }
 
-    /// Of the keys and between them.
+    /// Times of the keys, and times between them.
     std::vector<double> times() const {
         std::vector<double> all;
         for (const auto& channel : _channels) {

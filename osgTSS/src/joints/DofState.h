@@ -9,7 +9,7 @@
 
 namespace osgTSS {
 
-/// What of a DOFTransform moves: its translation along X, Y and Z, then heading, pitch and roll.
+/// The numbers by which a DOFTransform moves: its translation along X, Y and Z, then heading, pitch and roll.
 using DofState = std::array<float, 6>;
 
 DofState dofState(const osgSim::DOFTransform& node);

@@ -27,7 +27,7 @@ namespace osgTSS {
 /// rate. Throws tss::InputError with the reason for what is not a rigid joint.
 FoundJoints dofTransformJoint(const osgSim::DOFTransform& node, double timeCodesPerSecond);
 
-/// Null for DOFs that such a node does not have.
+/// Reads and writes the values of such a joint; null for DOFs that the node does not have.
 std::unique_ptr<JointNode> makeDofTransformNode(osgSim::DOFTransform& node, const tss::Joint& joint);
 
 /// An application says of its MatrixTransform or PositionAttitudeTransform how it moves, by user values:
@@ -41,8 +41,8 @@ bool isTagged(const osg::Node& node);
 /// Throws tss::InputError with the reason for a tag that cannot be served.
 FoundJoints taggedJoint(osg::Transform& node);
 
-/// Of a tagged node, or null. While nothing stops it, its matrix is left exactly as the application set it;
-/// when something does, what the matrix does beyond the DOFs is lost.
+/// Reads and writes the values of a tagged node; null for another. While nothing stops it, its matrix is left
+/// exactly as the application set it; when something does, what the matrix does beyond the DOFs is lost.
 std::unique_ptr<JointNode> makeTaggedNode(osg::Node& node, const tss::Joint& joint);
 
 /// The joint of an osgAnimation::Bone (boneMotion()); nothing for one that stands and for other nodes. Its
@@ -54,9 +54,9 @@ std::optional<FoundJoints> boneJoint(osg::Node& node, const AnimationChannels& c
 /// nothing for other nodes.
 std::optional<osg::Matrixd> standingBone(const osg::Node& node);
 
-/// Of a bone with such frames; null for another node. It reads and writes the bone's matrix after whatever
-/// has set that; the bones' matrices in the skeleton are SkeletonPose's. A pose that the joint does not know
-/// is left as it is, and stray() says so.
+/// Reads and writes a bone with such frames; null for another node. It does so with the bone's matrix, after
+/// whatever has set that; the bones' matrices in the skeleton are SkeletonPose's. A pose that the joint does
+/// not know is left as it is, and stray() says so.
 std::unique_ptr<JointNode> makeBoneNode(osg::Node& node, const tss::Joint& joint);
 
 /// The animation path callback among a node's update callbacks, null when there is none.
@@ -67,7 +67,7 @@ osg::AnimationPathCallback* animationPathOf(osg::Node& node);
 /// (to and fro for SWING). Throws tss::InputError with the reason for what is not a rigid path.
 FoundJoints animationPathJoint(const osg::AnimationPathCallback& animation, double timeCodesPerSecond);
 
-/// Of a MatrixTransform or PositionAttitudeTransform with such a callback, or null.
+/// Reads and writes a MatrixTransform or PositionAttitudeTransform with such a callback; null for another.
 std::unique_ptr<JointNode> makeAnimationPathNode(osg::Node& node, const tss::Joint& joint);
 
 /// The osgAnimation callback that moves a MatrixTransform by a stack of elements; null when there is none,
@@ -82,7 +82,7 @@ osgAnimation::UpdateMatrixTransform* stackOf(osg::Node& node);
 FoundJoints stackedJoints(const osg::Node& node, osgAnimation::UpdateMatrixTransform& animation,
                           const AnimationChannels& channels, double timeCodesPerSecond);
 
-/// Of a node with such a stack; null for DOFs that it does not have.
+/// Reads and writes a node with such a stack; null for DOFs that it does not have.
 std::unique_ptr<JointNode> makeStackedNode(osg::Node& node, const tss::Joint& joint);
 
 } // namespace osgTSS

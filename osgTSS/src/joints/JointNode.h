@@ -24,7 +24,7 @@ inline double nodeRounding(const tss::Dof& dof) {
     return tss::belowRange(dof, 1e-5 * (1 + std::abs(dof.lower) + std::abs(dof.upper)));
 }
 
-/// Of a value beyond the limits of a DOF; a whole turn has none.
+/// What to say of a value beyond the limits of a DOF; nothing for one within, and for a whole turn.
 inline std::optional<Stray> beyondLimits(const tss::Dof& dof, double value) {
     const double slack = nodeRounding(dof);
     if (tss::wholeTurn(dof) || (value >= dof.lower - slack && value <= dof.upper + slack))

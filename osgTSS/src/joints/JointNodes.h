@@ -24,8 +24,8 @@ std::optional<FoundJoints> jointsOf(osg::Transform& node, const AnimationChannel
 /// Whether a node of this kind is a joint whatever moves it: one of the first three.
 bool saysJoint(osg::Node& node);
 
-/// Of a node that jointsOf() knows and one of its joints; null for another node or for DOFs that the node
-/// does not have.
+/// Reads and writes the values of one of the joints of a node that jointsOf() knows; null for another node or
+/// for DOFs that the node does not have.
 std::unique_ptr<JointNode> makeJointNode(osg::Node& node, const tss::Joint& joint);
 
 /// Names the joints that a node carries. On another node than a JointTransform it is a user value, so that it

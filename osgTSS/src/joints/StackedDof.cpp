@@ -85,7 +85,7 @@ auto keysOf(const Element& element, const std::vector<AnimationChannels::Channel
 
 using TurnKeys = std::vector<Keys<Eigen::Matrix3d>>;
 
-/// Of each of three turns in an order the keys, a channel each; none where they are not told apart.
+/// The keys of three turns in this order, one channel each; none where the turns cannot be told apart.
 std::vector<std::vector<Keys<double>>> inTurns(const TurnKeys& all, const std::array<int, 3>& order) {
     std::vector<std::vector<Keys<double>>> turns(3);
     for (const Keys<Eigen::Matrix3d>& keys : all) {

@@ -188,7 +188,7 @@ bool JointBinding::movedSince() const {
     return false;
 }
 
-/// Of the joints that are asked for values beyond their limits, where they stop.
+/// Warns of the joints that are asked for values beyond their limits, at which they stop.
 void JointBinding::warnBeyondLimits() {
     std::size_t next = 0;
     for (const int joint : (*_plan)->joints)

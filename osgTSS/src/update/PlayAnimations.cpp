@@ -81,7 +81,7 @@ double durationOf(osgAnimation::Animation& animation) {
     return std::max(0.0, animation.computeDurationFromChannels());
 }
 
-/// Of the animations that a manager plays already; 0: none.
+/// The duration of the longest animation that a manager plays already, seconds; 0: it plays none.
 double playedBy(osgAnimation::BasicAnimationManager& manager) {
     double longest = 0;
     for (const auto& animation : manager.getAnimationList())
@@ -100,7 +100,7 @@ std::optional<Turns> turnsOf(osgAnimation::BasicAnimationManager& manager) {
     return turns;
 }
 
-/// Of a DOFTransform that nothing moves and that could.
+/// The swing of a DOFTransform that could move and that nothing moves; nothing for another.
 std::optional<Swing> swingOf(osgSim::DOFTransform& node) {
     if (hasFlag(node, "osgTSS:static") || node.getAnimationOn() || node.getUpdateCallback())
         return std::nullopt;
@@ -113,7 +113,7 @@ std::optional<Swing> swingOf(osgSim::DOFTransform& node) {
     return std::nullopt;
 }
 
-/// Of the path that a node moves along, seconds; 0: of none.
+/// The duration of the path that a node moves along, seconds; 0: there is none.
 double roundOf(osg::Node& node) {
     const auto* found = callbackOf<osg::AnimationPathCallback>(node.getUpdateCallback());
     if (!found || !found->getAnimationPath()) return 0;

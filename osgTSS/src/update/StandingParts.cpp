@@ -48,7 +48,7 @@ std::vector<osg::Node*> childrenOf(osg::Node& node) {
 
 } // namespace
 
-/// Of what osgAnimation deforms every update, the number of vertices alone.
+/// What osgAnimation deforms every update is known by its number of vertices alone.
 StandingParts::Drawn StandingParts::drawnBy(const osg::Node& node) {
     const osg::Geometry* geometry = node.asGeometry();
     const osg::Array* vertices = geometry ? geometry->getVertexArray() : nullptr;
@@ -80,7 +80,7 @@ private:
         bool served = false; ///< tables or proofs are for some of its joints
         std::vector<Part> parts{};
     };
-    /// What of one body hangs at and below a node: drawables, and joints of others.
+    /// What hangs at and below a node and is part of its body: drawables, and the joints of further bodies.
     struct Held {
         bool any = false, known = false;
         std::vector<std::size_t> whole{}; ///< the transforms that carry all of it, as parts of the machine
@@ -93,7 +93,8 @@ private:
         }
     };
 
-    /// Of a machine it does not matter where it stands as a whole.
+    /// Where a machine stands as a whole does not matter, so that the places that carry all of it are
+    /// dropped.
     void addMachine(osg::Node& top, bool known) {
         Machine outer = std::exchange(_machine, {});
         for (std::size_t part : addNode(top, known).whole) _machine.parts[part].place.reset();
