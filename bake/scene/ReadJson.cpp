@@ -1,66 +1,13 @@
-#include "bake/scene/ReadTree.h"
-
 #include "bake/scene/Problems.h"
-#include "bake/scene/SaxTokens.h"
-#include "bake/scene/TreeBuilder.h"
-#include "bake/scene/Utf8.h"
-
-#include <nlohmann/json.hpp>
+#include "bake/scene/ReadTree.h"
+#include "bake/scene/SaxReader.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace tss {
 
 namespace {
-
-using Json = nlohmann::json;
-
-constexpr std::string_view selfDescribing = "\xD9\xD9\xF7"; // CBOR's tag 55799
-
-/// What both encodings have in common: events into a tree.
-class SaxReader : public SaxTokens {
-public:
-    SaxReader(std::string_view text, const std::string& file, bool looksAhead)
-        : SaxTokens(text, looksAhead), tree_(file, text.size()) {}
-
-    bool null() { return add(Value()); }
-    bool boolean(bool flag) { return add(Value(flag)); }
-    bool number_integer(std::int64_t number) { return addInteger(Value(number)); }
-    bool number_unsigned(std::uint64_t number) { return addInteger(Value(number)); }
-    bool number_float(double number, const std::string&) {
-        tree_.addNumber(number);
-        return done(Event::Value, true);
-    }
-    bool end_object() {
-        tree_.endObject();
-        return done(Event::Value);
-    }
-    bool end_array() {
-        tree_.endArray();
-        return done(Event::Value);
-    }
-
-protected:
-    bool add(Value value) {
-        tree_.add(std::move(value));
-        return done(Event::Value);
-    }
-
-    bool addInteger(Value number) {
-        tree_.addInteger(std::move(number));
-        return done(Event::Value, true);
-    }
-
-    template <class Handler>
-    static bool parse(Handler& handler, Json::input_format_t format) {
-        const CountingIterator text{&handler.cursor};
-        return Json::sax_parse(text, text, &handler, format);
-    }
-
-    TreeBuilder tree_;
-};
 
 /// What nlohmann says of a token that cannot be one, and what was expected instead. Comments, literals that
 /// are none and the like are no token at all.
@@ -190,112 +137,10 @@ private:
     }
 };
 
-/// CBOR of the kinds that JSON has. nlohmann reads more than that (tags, byte strings, indefinite lengths),
-/// believes counts, and wraps integers below -2^63.
-class CborReader : public SaxReader {
-public:
-    CborReader(std::string_view text, const std::string& file) : SaxReader(text, file, false) {}
-
-    Value read() {
-        if (cursor.text.starts_with(selfDescribing)) cursor.at = end_ = selfDescribing.size();
-        parse(*this, Json::input_format_t::cbor);
-        return tree_.take();
-    }
-
-    bool number_integer(std::int64_t number) {
-        if (low() == 27 && byteAt(end_ + 1) >= 0x80) refuse("an integer of 64 bits", headEnd());
-        return SaxReader::number_integer(number);
-    }
-    bool number_float(double number, const std::string& text) {
-        if (!std::isfinite(number))
-            refuse("a finite number (\"inf\", \"-inf\", \"nan\" are texts)", cursor.at);
-        // One spelling for each number, so that an integer is an integer however it came.
-        return SaxReader::number_float(number, text);
-    }
-    bool string(const std::string& text) {
-        check(text);
-        return add(Value(text));
-    }
-    bool binary(const Json::binary_t&) { refuse("no byte strings and no tags", end_ + 1); }
-    bool start_object(std::size_t count) {
-        tree_.open(true);
-        check(count, 2);
-        return done(Event::Open);
-    }
-    bool start_array(std::size_t count) {
-        tree_.open(false);
-        check(count, 1);
-        return done(Event::Open);
-    }
-    bool key(const std::string& key) {
-        check(key);
-        tree_.key(key);
-        return done(Event::Key);
-    }
-
-    bool parse_error(std::size_t, const std::string&, const Json::exception& error) {
-        const std::size_t size = cursor.text.size();
-        if (std::string_view(error.what()).find(": expected end of input") != std::string_view::npos)
-            refuse("the end of the file after the scene", end_);
-        if (end_ >= size) refuse("1 more bytes", end_);
-        const Major major = this->major();
-        if (tree_.inObject() && last_ != Event::Key && major != Text) refuse("a text as key", end_ + 1);
-        if (major == Bytes || major == Tag) refuse("no byte strings and no tags", end_ + 1);
-        const std::size_t more = headEnd() - end_ - 1;
-        if (major == Simple && (low() < 25 || low() > 27)) refuse("true, false, null or a number", end_ + 1);
-        if (low() > 27) refuse("a definite length", end_ + 1);
-        if (headEnd() > size) refuse(std::to_string(more) + " more bytes", end_ + 1);
-        refuseCount(argument());
-    }
-
-private:
-    enum Major { Unsigned, Negative, Bytes, Text, Array, Map, Tag, Simple };
-
-    std::uint8_t byteAt(std::size_t at) const { return static_cast<std::uint8_t>(cursor.text[at]); }
-    // Of the item that begins where the last event ended:
-    Major major() const { return static_cast<Major>(byteAt(end_) >> 5); }
-    int low() const { return byteAt(end_) & 31; }
-    std::size_t headEnd() const {
-        return end_ + 1 + (low() < 24 || low() > 27 ? 0 : std::size_t(1) << (low() - 24));
-    }
-    std::uint64_t argument() const {
-        std::uint64_t number = low() < 24 ? std::uint64_t(low()) : 0;
-        for (std::size_t at = end_ + 1; at < headEnd(); ++at) number = number << 8 | byteAt(at);
-        return number;
-    }
-
-    [[noreturn]] void refuse(const std::string& expected, std::size_t at) const {
-        tree_.refuse("expected CBOR: " + expected + " at byte " + std::to_string(at));
-    }
-    [[noreturn]] void refuseCount(std::uint64_t count) const {
-        refuse("no more items than bytes are left, found " + std::to_string(count), headEnd());
-    }
-
-    /// A count of items that each take at least `bytesEach`, before any is read.
-    void check(std::uint64_t count, std::size_t bytesEach) const {
-        if (low() > 27) refuse("a definite length", end_ + 1);
-        if (count > (cursor.text.size() - cursor.at) / bytesEach) refuseCount(count);
-    }
-
-    void check(const std::string& text) const {
-        if (low() > 27) refuse("a definite length", end_ + 1);
-        if (!isUtf8(text)) refuse("text in UTF-8", headEnd());
-    }
-};
-
 } // namespace
-
-bool looksLikeCbor(std::string_view bytes) {
-    return bytes.starts_with(selfDescribing) ||
-           (!bytes.empty() && (static_cast<std::uint8_t>(bytes[0]) >> 5) == 5);
-}
 
 Value parseJson(std::string_view text, const std::string& fileName) {
     return JsonReader(text, fileName).read();
-}
-
-Value parseCbor(std::string_view bytes, const std::string& fileName) {
-    return CborReader(bytes, fileName).read();
 }
 
 } // namespace tss
