@@ -3,7 +3,9 @@
 #include "bake/base/Parallel.h"
 #include "bake/motion/RandomPoses.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 namespace tss::reporting {
@@ -12,48 +14,49 @@ namespace {
 
 using namespace compare;
 
-/// The scene's own animation of the pair where a single joint carries it, else the leading DOF from its upper
-/// limit to the lower one and back, the others at rest.
-std::vector<std::vector<double>> motionSteps(const SceneModel& scene, const Pair& pair,
-                                             const ComparedPair& problem, const ReportOptions& options,
-                                             int steps, std::string& inWords) {
-    if (!options.motion.empty()) {
-        inWords = "the motion given";
-        return options.motion;
+/// A motion of a pair, and what it is in words.
+struct PairMotionSteps {
+    std::string about;
+    std::vector<std::vector<double>> values; ///< one per DOF, each step
+};
+
+/// The scene's own animation of the pair; nothing where it has none, or where not a single joint carries it.
+std::optional<PairMotionSteps> ownAnimation(const SceneModel& scene, const Pair& pair, const Motion& motion,
+                                            int steps) {
+    if (pair.joints.size() != 1 || !(scene.endTimeCode > scene.startTimeCode)) return std::nullopt;
+    const Joint& joint = scene.joints[pair.joints[0]];
+    if (joint.body0 != pair.bodyA || joint.drives.size() != motion.dofCount() ||
+        std::ranges::any_of(joint.drives, &TimeSamples::empty))
+        return std::nullopt;
+    PairMotionSteps own{"the scene's own animation", {}};
+    for (int s = 0; s < steps; ++s) {
+        const double time = scene.startTimeCode + (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1);
+        std::vector<double> q;
+        for (const TimeSamples& drive : joint.drives) q.push_back(drive.at(time));
+        own.values.push_back(clampToLimits(motion, q));
     }
-    const Motion& motion = problem.motion;
-    std::vector<std::vector<double>> values;
-    if (pair.joints.size() == 1) {
-        const Joint& joint = scene.joints[pair.joints[0]];
-        bool driven = joint.body0 == pair.bodyA && joint.drives.size() == motion.dofCount();
-        for (std::size_t k = 0; driven && k < joint.drives.size(); ++k) driven = !joint.drives[k].empty();
-        if (driven && scene.endTimeCode > scene.startTimeCode) {
-            inWords = "the scene's own animation";
-            for (int s = 0; s < steps; ++s) {
-                const double time =
-                    scene.startTimeCode + (scene.endTimeCode - scene.startTimeCode) * s / (steps - 1);
-                std::vector<double> q;
-                for (const TimeSamples& drive : joint.drives) q.push_back(drive.at(time));
-                values.push_back(clampToLimits(motion, q));
-            }
-            return values;
-        }
-    }
-    const std::size_t leading = leadingDof(problem);
+    return own;
+}
+
+/// The leading DOF from its upper limit to the lower one and back, the others at rest.
+PairMotionSteps toAndFro(const Motion& motion, std::size_t leading, int steps) {
     const Dof& dof = motion.dofs[leading];
-    inWords = dof.name + " from its upper limit to the lower one and back";
+    PairMotionSteps swing{dof.name + " from its upper limit to the lower one and back", {}};
     for (int s = 0; s < steps; ++s) {
         std::vector<double> q = restValues(motion);
         const double share = std::abs(1 - 2.0 * s / (steps - 1));
         q[leading] = dof.lower + share * (dof.upper - dof.lower);
-        values.push_back(clampToLimits(motion, q));
+        swing.values.push_back(clampToLimits(motion, q));
     }
-    return values;
+    return swing;
 }
 
+/// How often `touches` holds in slices of the leading DOF, the others anywhere in their limits. samples: of
+/// each slice.
 template <class Touches>
-RegionCurve regionOf(const Motion& motion, std::size_t leading, int bins, int samples, std::uint64_t seed,
+RegionCurve regionOf(const Motion& motion, std::size_t leading, int samples, std::uint64_t seed,
                      const Touches& touches) {
+    constexpr int bins = 76;
     const Dof& dof = motion.dofs[leading];
     const double step = (dof.upper - dof.lower) / bins;
     std::vector<int> hits(static_cast<std::size_t>(bins), 0);
@@ -113,13 +116,17 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     study.leadingDof = dof.name;
     study.leadingUnit = unitOf(dof, scene.metersPerUnit);
     const auto whole = makeSphereTree(problem, TreeOf::All, 8, Enclosure::Balls);
-    study.region.spheres = regionOf(problem.motion, leading, 76, 400, options.seed + 4,
+    study.region.spheres = regionOf(problem.motion, leading, 400, options.seed + 4,
                                     [&](const PoseQuery& query) { return whole->hit(query); });
-    study.region.meshes = regionOf(problem.motion, leading, 76, options.quick ? 30 : 200, options.seed + 5,
+    study.region.meshes = regionOf(problem.motion, leading, options.quick ? 30 : 200, options.seed + 5,
                                    [&](const PoseQuery& query) { return truth.touches(query.pose); });
 
-    const auto queries =
-        poseQueries(problem.motion, motionSteps(scene, pair, problem, options, steps, study.steps.motion));
+    PairMotionSteps motion{"the motion given", options.motion};
+    if (options.motion.empty())
+        motion = ownAnimation(scene, pair, problem.motion, steps)
+                     .value_or(toAndFro(problem.motion, leading, steps));
+    study.steps.motion = motion.about;
+    const auto queries = poseQueries(problem.motion, motion.values);
     for (const PoseQuery& query : queries) {
         const double value = query.q[leading] * unitsPer(dof);
         study.steps.leading.push_back(value);
