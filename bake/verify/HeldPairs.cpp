@@ -11,9 +11,11 @@ namespace tss::verify {
 
 namespace {
 
+/// Beyond so many pieces of a surface, or pairs of pieces looked at, nothing is told apart; of pairs that are
+/// left at most so many are listed.
 constexpr std::size_t mostPieces = 500'000, mostPairs = 20'000'000, mostLeft = 1000;
-constexpr std::size_t mostHolders = 8; ///< of a piece that are told
-constexpr double finest = 5e-3;        ///< of the radius of what reaches a piece: no smaller ones are made
+constexpr std::size_t mostHolders = 8; ///< of a piece, that are listed
+constexpr double finest = 5e-3;        ///< of the radius of a ball near a piece: no smaller ones are made
 
 /// The spheres of one body that tests have, by their place in the list.
 struct Balls {
@@ -27,13 +29,14 @@ struct Balls {
     }
 };
 
+/// A piece of a surface and the balls that hold it.
 struct Held {
     Piece piece;
     bool exempt;
     std::vector<std::uint32_t> holders; ///< balls that contain it
 };
 
-/// One surface in pieces as large as balls contain them.
+/// One surface cut into pieces, each as large as some ball contains it.
 class HeldPieces {
 public:
     HeldPieces(const SurfaceTree& tree, const std::vector<Sphere>& balls, std::vector<char> full)
@@ -50,7 +53,7 @@ public:
         visit({tree.root(), 1}, all);
     }
 
-    /// Those of which the ball is the first holder.
+    /// The pieces of which the ball is the first holder.
     const std::vector<Held>& of(std::uint32_t ball) const { return of_[ball]; }
     const std::vector<Piece>& bare() const { return bare_; } ///< what no ball contains
     bool tooMany() const { return pieces_ > mostPieces || bare_.size() > mostPieces / 10; }
@@ -62,7 +65,7 @@ private:
             *shape.corners, [&](const Vec3& corner) { return (corner - ball.centre).norm() <= ball.radius; });
     }
 
-    /// near: balls that may reach the piece.
+    /// Puts the piece where it belongs, or its halves. near: the balls that may reach it.
     void visit(Piece piece, const std::vector<std::uint32_t>& near) {
         if (tooMany()) return;
         const Shape shape = shapes_.of(piece);
@@ -80,6 +83,8 @@ private:
             if (any.holders.size() < mostHolders) any.holders.push_back(k);
         }
         ++pieces_;
+        // What is not exempt is best held by balls that are asked with all of the other body (`full_`), and
+        // is halved down to a size to find such; else any ball will do, and where there is none it is bare.
         const bool ends = !divisible(tree_, piece) || reaching.empty();
         if (!best.holders.empty())
             of_[best.holders.front()].push_back(std::move(best));
@@ -101,10 +106,10 @@ private:
     std::size_t pieces_ = 0;
 };
 
-/// Which balls of A and B are a test that fires wherever the two meet.
-class Asked {
+/// The pairs of balls of A and B that are a test which fires wherever the two meet.
+class FiringTests {
 public:
-    explicit Asked(const MeshClaim& claim) {
+    explicit FiringTests(const MeshClaim& claim) {
         std::vector<std::array<std::uint32_t, 2>> pairs;
         for (const MeshTest& t : claim.tests) {
             const std::uint32_t i = a.add(t.sphereA, t.centreA, t.radiusA);
@@ -113,19 +118,20 @@ public:
                 pairs.push_back({i, j});
         }
         if (10 * pairs.size() < 9 * a.spheres.size() * b.spheres.size()) return;
-        asked_.assign(a.spheres.size() * b.spheres.size(), 0);
-        for (const auto& [i, j] : pairs) asked_[i * b.spheres.size() + j] = 1;
+        fires_.assign(a.spheres.size() * b.spheres.size(), 0);
+        for (const auto& [i, j] : pairs) fires_[i * b.spheres.size() + j] = 1;
     }
 
-    bool nearlyAll() const { return !asked_.empty(); }
-    bool has(std::uint32_t i, std::uint32_t j) const { return asked_[i * b.spheres.size() + j]; }
+    bool nearlyAll() const { return !fires_.empty(); }
+    bool has(std::uint32_t i, std::uint32_t j) const { return fires_[i * b.spheres.size() + j]; }
     bool has(const Held& x, const Held& y) const {
         return std::ranges::any_of(x.holders, [&](std::uint32_t i) {
             return std::ranges::any_of(y.holders, [&](std::uint32_t j) { return has(i, j); });
         });
     }
 
-    /// Each ball of A, or of B: it is asked with all of the other body. All of them where none is.
+    /// For each ball of A, or of B, whether it is asked with all balls of the other body; all of them where
+    /// none is.
     std::vector<char> full(bool ofB) const {
         const std::size_t count = ofB ? b.spheres.size() : a.spheres.size();
         const std::size_t others = ofB ? a.spheres.size() : b.spheres.size();
@@ -139,13 +145,14 @@ public:
     Balls a, b;
 
 private:
-    std::vector<char> asked_;
+    std::vector<char> fires_;
 };
 
-/// Pairs of pieces that are left. Where there are many, pairs of the larger pieces that those are parts of.
-class Left {
+/// Pairs of pieces that are left to be shown; where there are many, pairs of the larger pieces that those are
+/// parts of.
+class LeftPairs {
 public:
-    Left(const SurfaceTree& a, const SurfaceTree& b) : aboveA_(parents(a)), aboveB_(parents(b)) {}
+    LeftPairs(const SurfaceTree& a, const SurfaceTree& b) : aboveA_(parents(a)), aboveB_(parents(b)) {}
 
     void add(Piece a, Piece b) {
         for (int k = 0; k < up_; ++k) {
@@ -187,29 +194,30 @@ private:
     static constexpr std::size_t mostKept = 50'000;
     const std::vector<std::int32_t> aboveA_, aboveB_;
     std::set<std::array<std::uint32_t, 4>> pairs_;
-    int up_ = 0; ///< so often what is added is taken for what it is a part of
+    int up_ = 0; ///< how many levels up the pieces of pairs are taken
 };
 
 } // namespace
 
 std::optional<std::vector<PiecePair>> pairsNotHeld(const SurfaceTree& a, const SurfaceTree& b,
                                                    const MeshClaim& claim) {
-    const Asked asked(claim);
-    if (!asked.nearlyAll()) return std::nullopt;
-    const HeldPieces ofA(a, asked.a.spheres, asked.full(false)), ofB(b, asked.b.spheres, asked.full(true));
+    const FiringTests firing(claim);
+    if (!firing.nearlyAll()) return std::nullopt;
+    const HeldPieces ofA(a, firing.a.spheres, firing.full(false)),
+        ofB(b, firing.b.spheres, firing.full(true));
     if (ofA.tooMany() || ofB.tooMany()) return std::nullopt;
-    Left left(a, b);
+    LeftPairs left(a, b);
     for (const Piece& bare : ofA.bare()) left.add(bare, {b.root(), 1});
     for (const Piece& bare : ofB.bare()) left.add({a.root(), 1}, bare);
     std::size_t looked = 0;
-    for (std::uint32_t i = 0; i < asked.a.spheres.size(); ++i)
-        for (std::uint32_t j = 0; j < asked.b.spheres.size(); ++j) {
-            if (asked.has(i, j)) continue;
+    for (std::uint32_t i = 0; i < firing.a.spheres.size(); ++i)
+        for (std::uint32_t j = 0; j < firing.b.spheres.size(); ++j) {
+            if (firing.has(i, j)) continue;
             looked += ofA.of(i).size() * ofB.of(j).size();
             if (looked > mostPairs) return std::nullopt;
             for (const Held& x : ofA.of(i))
                 for (const Held& y : ofB.of(j))
-                    if (!(x.exempt && y.exempt) && !asked.has(x, y)) left.add(x.piece, y.piece);
+                    if (!(x.exempt && y.exempt) && !firing.has(x, y)) left.add(x.piece, y.piece);
         }
     return left.few();
 }
