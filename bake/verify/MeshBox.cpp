@@ -259,8 +259,14 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     if (!withinLimits(motion_, q)) return false;
     const Pose at = tss::pose(motion_, q);
     const double least = tests_.leastGap(at, claim_.miss + claim_.band, work_);
-    if (least <= claim_.miss + claim_.band) return false;
-    const auto beyond = [&](const Piece& a, const Piece& b) {
+    if (least <= claim_.miss + claim_.band || !anyWithin(near, at, pairs)) return false;
+    broken.pose = q;
+    broken.lag = least;
+    return true;
+}
+
+bool MeshBox::anyWithin(double near, const Pose& at, std::vector<PiecePair> stack) {
+    const auto beyond = [&](const Piece& a, const Piece& b) { // whole triangles or parts of them
         Corners moved = *shapesB_.of(b).corners;
         for (Vec3& corner : moved) corner = at * corner;
         const Corners fixed = *shapesA_.of(a).corners;
@@ -270,7 +276,6 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     // Pieces of the same two triangles mostly follow each other: the whole ones tell of them all.
     Piece wholeA{-1, 1}, wholeB{-1, 1};
     bool wholeBeyond = false;
-    std::vector<PiecePair> stack(pairs);
     while (!stack.empty()) {
         const PiecePair pair = stack.back();
         stack.pop_back();
@@ -285,10 +290,9 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
                 wholeB.node = pair.b.node;
                 wholeBeyond = beyond(wholeA, wholeB);
             }
-            if (wholeBeyond || (pair.a.cuts + pair.b.cuts > 2 && beyond(pair.a, pair.b))) continue;
-            broken.pose = q;
-            broken.lag = least;
-            return true;
+            const bool whole = pair.a.cuts + pair.b.cuts == 2;
+            if (!wholeBeyond && (whole || !beyond(pair.a, pair.b))) return true;
+            continue;
         }
         const Slab a = shapesA_.of(pair.a).slab, b = shapesB_.of(pair.b).slab;
         const Vec3 between = at * b.centre - a.centre;

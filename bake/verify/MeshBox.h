@@ -33,6 +33,8 @@ private:
     /// At a pose no test answers, and the surfaces are no farther apart than `near`.
     bool unanswered(const std::vector<double>& q, const std::vector<PiecePair>& pairs, double near,
                     MeshProofResult& broken);
+    /// At a pose two pieces of some pair, unless both are exempt, are no farther apart than `near`.
+    bool anyWithin(double near, const Pose& at, std::vector<PiecePair> stack);
 
     struct Moved : MovingPoint {
         std::uint64_t stamp = 0;
