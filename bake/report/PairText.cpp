@@ -261,36 +261,41 @@ std::string facts(const PairStudy& study) {
     return text;
 }
 
-} // namespace
+std::string errorSection(const PairStudy& study, const std::vector<Plot>& plots) {
+    return "\n### Error against run time\n\n" + pictureText(plots, "pareto") + frontText(study) +
+           pictureText(plots, "verdicts") +
+           fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
+           methodTable(study) +
+           fmt::format(
+               "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest "
+               "vertex "
+               "of one mesh inside the other, 0 where only edges cross. Early: free poses where it says "
+               "contact; how far: the distance of the meshes. Promised: what holds for every pose within the "
+               "limits, – where nothing is promised. First contact: along straight ways from a free to a "
+               "touching pose, how far the farthest point of the moving body is at worst from where the "
+               "meshes "
+               "first touch{}. Tests: of two spheres, a query, 4 products each as the paper counts; a table "
+               "is "
+               "counted with all of its tests, of which its kernels leave out what cannot matter at the "
+               "pose; "
+               "the others stop at the first hit.\n\n",
+               study.leadingUnit == "degrees"
+                   ? fmt::format(", and the angle of {} in between", study.leadingDof)
+                   : "");
+}
 
-std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
-    std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
-    if (study.never)
-        return text + *study.never + " No table is needed and no method has anything to find.\n\n";
-    text +=
-        (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") + countTable(study, besidePaper) +
-        "\n### Error against run time\n\n" + pictureText(plots, "pareto") + frontText(study) +
-        pictureText(plots, "verdicts") +
-        fmt::format("All methods, those on spheres with the spheres of {}:\n\n", study.base.name) +
-        methodTable(study) +
-        "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest vertex of "
-        "one mesh inside the other, 0 where only edges cross. Early: free poses where it says contact; how "
-        "far: the distance of the meshes. Promised: what holds for every pose within the limits, – where "
-        "nothing is promised. First contact: along straight ways from a free to a touching pose, how far the "
-        "farthest point of the moving body is at worst from where the meshes first touch";
-    text += study.leadingUnit == "degrees" ? fmt::format(", and the angle of {} in between", study.leadingDof)
-                                           : "";
-    text +=
-        ". Tests: of two spheres, a query, 4 products each as the paper counts; a table is counted with all "
-        "of its tests, of which its kernels leave out what cannot matter at the pose; the others stop at the "
-        "first hit.\n\n### How much quicker, at which error\n\n"
-        "The table for each model, and how many times its time others take. The loop over indices is the "
-        "same table as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the "
-        "triangles exactly, Bullet in single precision. With ε above 0 a yes/no table is silent where its "
-        "own nearest pair is still up to ε apart while others touch, however deep those are.\n\n" +
-        ratioTable(study) + "\n" + goalsText(study, besidePaper) + "\n### When to choose what\n\n" +
-        advice(study) + "\n### Along a motion\n\n" + pictureText(plots, "steps") +
-        pictureText(plots, "region");
+std::string ratioSection(const PairStudy& study, bool besidePaper) {
+    return "### How much quicker, at which error\n\n"
+           "The table for each model, and how many times its time others take. The loop over indices is the "
+           "same table as the paper runs it, the sphere tree stands on the same spheres; FCL answers for the "
+           "triangles exactly, Bullet in single precision. With ε above 0 a yes/no table is silent where its "
+           "own nearest pair is still up to ε apart while others touch, however deep those are.\n\n" +
+           ratioTable(study) + "\n" + goalsText(study, besidePaper) + "\n";
+}
+
+std::string motionSection(const PairStudy& study, const std::vector<Plot>& plots) {
+    std::string text =
+        "\n### Along a motion\n\n" + pictureText(plots, "steps") + pictureText(plots, "region");
     for (const auto& [region, whose] : {std::pair(&study.region.meshes, std::string("meshes")),
                                         std::pair(&study.region.spheres, "spheres of " + study.base.name)})
         text +=
@@ -301,10 +306,25 @@ std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, boo
                               study.leadingDof, 100 * region->meanShare())
                 : fmt::format("There is no {} of collision of the {}: nothing collided.\n", regionName(study),
                               whose);
-    text += "\n";
-    text += "### Sweeps\n\n" + sizeTable(study) + "\n" + pictureText(plots, "bake") +
-            pictureText(plots, "epsilon") + pictureText(plots, "memory") + samplingTable(study) + "\n" +
-            pictureText(plots, "sampling") + "### What each method is\n\n" + whatTheyAre(study);
+    return text + "\n";
+}
+
+std::string sweepSection(const PairStudy& study, const std::vector<Plot>& plots) {
+    return "### Sweeps\n\n" + sizeTable(study) + "\n" + pictureText(plots, "bake") +
+           pictureText(plots, "epsilon") + pictureText(plots, "memory") + samplingTable(study) + "\n" +
+           pictureText(plots, "sampling");
+}
+
+} // namespace
+
+std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
+    std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
+    if (study.never)
+        return text + *study.never + " No table is needed and no method has anything to find.\n\n";
+    text += (besidePaper ? "### Beside the paper\n\n" : "### The table\n\n") +
+            countTable(study, besidePaper) + errorSection(study, plots) + ratioSection(study, besidePaper) +
+            "### When to choose what\n\n" + advice(study) + motionSection(study, plots) +
+            sweepSection(study, plots) + "### What each method is\n\n" + whatTheyAre(study);
     if (!study.notRun.empty()) text += "\n### What was not run\n\n" + notRunText(study.notRun);
     return text + "\n";
 }
