@@ -132,17 +132,8 @@ void checkUsage(const MakeArguments& arguments, const CLI::App& command) {
     if (arguments.dofs.empty()) throw CLI::RequiredError("--dof");
 }
 
-void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {
-    checkUsage(arguments, command);
-    expectScene(arguments.output);
-    if (!arguments.robot.input.empty())
-        return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
-    arguments.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
-    if (arguments.isWhole()) {
-        arguments.pairs = arguments.robot.pairs;
-        arguments.offsets = arguments.robot.offsets;
-        return makeWholeScene(arguments, console);
-    }
+/// --a, --b and --dof: a scene of two bodies and their joint.
+void makePair(const MakeArguments& arguments, const Console& console) {
     SceneModel scene;
     scene.metersPerUnit = arguments.metersPerUnit;
     scene.defaultPrim = freePrimName(scene, std::filesystem::path(arguments.output).stem().string());
@@ -170,11 +161,21 @@ void make(MakeArguments& arguments, const CLI::App& command, const Console& cons
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + shellWord(arguments.output) +
                 " -o BAKED.tss");
-    const Json shifts = adviseMoves(scene, scene.pairs[pair], console);
     console.print({{"output", arguments.output},
                    {"pair", scene.pairs[pair].path},
                    {"meshes", audits},
-                   {"freeingMoves", shifts}});
+                   {"freeingMoves", adviseMoves(scene, scene.pairs[pair], console)}});
+}
+
+void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {
+    checkUsage(arguments, command);
+    expectScene(arguments.output);
+    if (!arguments.robot.input.empty())
+        return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
+    arguments.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
+    arguments.pairs = arguments.robot.pairs;
+    arguments.offsets = arguments.robot.offsets;
+    arguments.isWhole() ? makeWholeScene(arguments, console) : makePair(arguments, console);
 }
 
 void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& arguments) {
