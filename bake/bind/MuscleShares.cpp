@@ -6,10 +6,22 @@
 #include <algorithm>
 
 namespace tss {
+namespace {
 
-std::vector<double> insertionShares(const TriangleMesh& surface, const TriangleMesh& origin,
-                                    const TriangleMesh& insertion, std::span<const DualPose> far) {
-    if (surface.empty() || origin.empty() || insertion.empty()) return {};
+/// Of a number squared twice: a place as far from one bone as from the other goes half with either, one at
+/// half that distance to 94 %. With the square alone what lies thick on a bone would turn beside the joint.
+double fourthPower(double x) {
+    return x * x * x * x;
+}
+
+/// Least reach of smoothing, as a share of the mean edge: it only keeps what touches a bone from being
+/// infinitely firm.
+constexpr double leastReach = 0.02;
+
+/// Of a ring, which lies on other bones than those that its parts belong to, as a closed upper lip on the
+/// lower teeth: by claims along the surface.
+std::vector<double> claimedAround(const TriangleMesh& surface, const TriangleMesh& origin,
+                                  const TriangleMesh& insertion, const ShareOptions& options) {
     std::vector<SkinInfluence> influences;
     for (const TriangleMesh* bone : {&origin, &insertion}) {
         const MeshQuery query(*bone);
@@ -18,11 +30,39 @@ std::vector<double> insertionShares(const TriangleMesh& surface, const TriangleM
         influences.push_back({{}, std::min(diagonal(*bone), 2 * diagonal(surface)), {}, {}});
         for (const Vec3& v : surface.vertices) influences.back().distance.push_back(query.distance(v));
     }
-    // More rounds than skin has, since all of a muscle may become stiff; but its ends keep 99 % of their
-    // bones' motion.
+    return claimedShares(surface, skinGraph(surface), influences, options)[1];
+}
+
+/// Of a muscle with two ends: by how much nearer a vertex is to the one bone than to the other.
+std::vector<double> nearerBone(const TriangleMesh& surface, const TriangleMesh& origin,
+                               const TriangleMesh& insertion, const ShareOptions& options) {
+    const SkinGraph graph = skinGraph(surface);
+    const MeshQuery toOrigin(origin), toInsertion(insertion);
+    std::vector<std::vector<double>> shares(2);
+    std::vector<double> reach; // the nearer to a bone, the firmer the vertex keeps its share
+    for (const Vec3& v : surface.vertices) {
+        const double here = toOrigin.distance(v), there = toInsertion.distance(v), both = here + there;
+        const double a = both > 0 ? fourthPower(here / both) : 0.5;
+        const double b = both > 0 ? fourthPower(there / both) : 0.5;
+        shares[0].push_back(b / (a + b));
+        shares[1].push_back(a / (a + b));
+        reach.push_back(std::clamp(std::min(here, there), leastReach * graph.meanEdge, graph.meanEdge));
+    }
+    unfoldShares(surface, graph, reach, options, shares);
+    return shares[1];
+}
+
+} // namespace
+
+std::vector<double> insertionShares(const TriangleMesh& surface, const TriangleMesh& origin,
+                                    const TriangleMesh& insertion, MuscleForm form,
+                                    std::span<const DualPose> far) {
+    if (surface.empty() || origin.empty() || insertion.empty()) return {};
+    // More rounds than skin has, since all of a muscle may become stiff; but the ends of a ring keep 99 % of
+    // their bones' motion.
     ShareOptions options{{}, {}, true, 60, 1.2, 0.99};
     for (const DualPose& motion : far) options.motions.push_back({DualPose(), motion});
-    return claimedShares(surface, skinGraph(surface), influences, options)[1];
+    return (form == MuscleForm::Ring ? claimedAround : nearerBone)(surface, origin, insertion, options);
 }
 
 } // namespace tss

@@ -152,12 +152,12 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
     return shares;
 }
 
-void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,
-                  std::vector<std::vector<double>>& shares) {
+void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, std::span<const double> reach,
+                  const ShareOptions& options, std::vector<std::vector<double>>& shares) {
     const auto rows = static_cast<Eigen::Index>(graph.vertices());
     Eigen::VectorXd mass(rows);
     for (Eigen::Index v = 0; v < rows; ++v) // a vertex of no triangle keeps its own
-        mass[v] = graph.area[v] > 0 ? graph.area[v] / (reach * reach) : 1;
+        mass[v] = graph.area[v] > 0 ? graph.area[v] / (reach[v] * reach[v]) : 1;
     const std::vector<std::vector<double>> before = shares;
     std::vector<double> stiffness(skin.triangles.size(), 1), beyond;
     Eigen::SimplicialLDLT<SparseMatrix> solver;

@@ -26,9 +26,10 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
                                                const std::vector<SkinInfluence>& influences,
                                                const ShareOptions& options = {});
 
-/// Smooths given shares, over `reach` and more, where a motion would fold the skin, and nowhere else.
-void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,
-                  std::vector<std::vector<double>>& shares);
+/// Smooths given shares where a motion would fold the skin, and nowhere else. reach: #V, over which and more,
+/// > 0, scene units.
+void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, std::span<const double> reach,
+                  const ShareOptions& options, std::vector<std::vector<double>>& shares);
 
 /// Smooths values over the skin by screened diffusion with a decay length of `reach`. firmness: #V, >= 1,
 /// weight with which a vertex keeps its own value. values: lists of #V.

@@ -141,7 +141,7 @@ Vec3 MuscleDeformer::shiftAt(const MusclePoint& point, double activation) const 
     if (ring_) return -activation * muscle_.maxContraction * ring_->spoke(s);
     double shift = -activation * muscle_.maxContraction * (contractionIntegral(s) - anchorIntegral_);
     // Both ends of a muscle between two bones stay on them: the shift fades out towards either end.
-    if (muscle_.spans) shift *= s > muscle_.anchor ? 1 - point.share : point.share;
+    if (muscle_.spans) shift *= s > muscle_.anchor ? 1 - alongShare(point) : alongShare(point);
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
 

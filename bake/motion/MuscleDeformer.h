@@ -78,6 +78,12 @@ public:
     double insertionShare(const Vec3& rest) const;
     const std::vector<double>& insertionShares() const { return shares_; } ///< #V
 
+    /// How much of the muscle's shortening lies before a point, from 0 at the origin to 1 at the insertion;
+    /// of a ring its share of the insertion's bone.
+    double alongShare(const MusclePoint& point) const {
+        return ring_ ? point.share : contractionIntegral(point.s);
+    }
+
 private:
     double parameter(const Vec3& x) const { return ring_ ? ring_->parameter(x) : fibre_.parameter(x); }
     Vec3 linePoint(double s) const { return ring_ ? ring_->point(s) : fibre_.point(s); }

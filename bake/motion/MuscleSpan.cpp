@@ -23,8 +23,10 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
     const std::vector<MusclePoint>& points = muscle.surfacePoints();
     const TriangleMesh& surface = muscle.muscle().surface;
     swelling_ = medialOffsets(surface, ClosestPointQuery(surface), vertexNormals(surface));
-    for (std::size_t v = 0; v < points.size(); ++v)
-        swelling_[v] *= 2 * std::sqrt(std::max(shares_[v] * (1 - shares_[v]), 0.0)) / unit;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const double along = muscle.alongShare(points[v]);
+        swelling_[v] *= 2 * std::sqrt(std::max(along * (1 - along), 0.0)) / unit;
+    }
     // The mean of the gradients in the triangles around, by area.
     std::vector<double> area(shares_.size(), 0);
     for (const Tri& t : surface.triangles) {

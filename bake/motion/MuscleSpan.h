@@ -8,8 +8,8 @@ namespace tss {
 
 /// A muscle between two bones (METHOD 6.1): each vertex moves by the dual quaternion blend of both bones'
 /// motions, with its MuscleDeformer::insertionShare() as weight. Blending alone changes the volume; it is
-/// restored by displacing vertices along swelling(), all scaled by one factor. swelling() vanishes where the
-/// muscle moves with one bone alone.
+/// restored by displacing vertices along swelling(), all scaled by one factor. swelling() vanishes at both
+/// ends.
 class MuscleSpan {
 public:
     /// unit: scene units per length of what carry() is given.

@@ -159,8 +159,9 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
     if (!muscle.spans || model.bone < 0) return muscle;
     const MuscleWays ways = muscleWays(scene, model);
     muscle.side = ways.side;
-    muscle.insertionShares = insertionShares(muscle.surface, carrying(scene, model.bone, model.body),
-                                             carrying(scene, model.insertionBone, model.body), ways.far);
+    muscle.insertionShares =
+        insertionShares(muscle.surface, carrying(scene, model.bone, model.body),
+                        carrying(scene, model.insertionBone, model.body), muscle.form, ways.far);
     return muscle;
 }
 

@@ -127,7 +127,7 @@ TEST_CASE(
         std::vector<DualPose> far;
         for (const double degrees : {7.0, 14.0, -9.0, -18.0}) far.emplace_back(jaw.swung(degrees * degree));
         muscle.insertionShares = insertionShares(muscle.surface, jaw.bones[0]->muscle().surface,
-                                                 jaw.bones[1]->muscle().surface, far);
+                                                 jaw.bones[1]->muscle().surface, muscle.form, far);
         jaw.bones.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
         parameters.frames.push_back(0);
         parameters.insertions.push_back(1);
