@@ -17,6 +17,9 @@ namespace {
 /// mouth along.
 constexpr double contactReach = 3;
 constexpr std::size_t leastStops = 4; ///< on a swing, however little it moves
+/// On all ways of several joints together, so that loading a skin of fifty bones takes seconds: few long
+/// steps find folds all the same, up to half a step away.
+constexpr std::size_t mostTogether = 256;
 
 /// Activations and poses at which contacts are sought.
 struct Station {
@@ -47,12 +50,14 @@ double wayOf(const SkinRig& rig, const BoneSwing& swing) {
     return longest;
 }
 
-void addStations(const SkinRig& rig, const BoneSwing& swing, const Station& rest,
+/// most: number of its stations, at most.
+void addStations(const SkinRig& rig, const BoneSwing& swing, const Station& rest, std::size_t most,
                  std::vector<Station>& result) {
     const double step = 4 * contactReach * static_cast<double>(rig.radius);
     const std::size_t needed =
         step > 0 ? static_cast<std::size_t>(std::min(std::ceil(wayOf(rig, swing) / step), 1e6)) : 0;
-    const std::size_t stops = std::clamp(needed, leastStops, std::max(leastStops, swing.size()));
+    const std::size_t stops =
+        std::min(std::clamp(needed, leastStops, std::max(leastStops, swing.size())), most);
     for (std::size_t s = 1; s <= stops; ++s)
         result.push_back({rest.activations, swing[(s * swing.size() + stops - 1) / stops - 1], s});
 }
@@ -67,8 +72,12 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
             result.push_back(rest);
             result.back().activations[m] = end;
         }
-    for (const std::vector<BoneSwing>* swings : {&rig.parameters.swings, &rig.parameters.together})
-        for (const BoneSwing& swing : *swings) addStations(rig, swing, rest, result);
+    const SkinParameters& parameters = rig.parameters;
+    for (const BoneSwing& swing : parameters.swings)
+        addStations(rig, swing, rest, swing.size() + leastStops, result);
+    for (const BoneSwing& swing : parameters.together)
+        addStations(rig, swing, rest, std::max<std::size_t>(1, mostTogether / parameters.together.size()),
+                    result);
     return result;
 }
 
