@@ -42,8 +42,9 @@ BoneSwing swingTo(const SceneModel& scene, const SkinModel& skin, const std::vec
 
 constexpr std::size_t mostColumns = 64; ///< joint values that are combined freely: 128 rows at most
 
-/// Row of a two-level orthogonal array of strength 3 (Hedayat, Sloane, Stufken, "Orthogonal Arrays", 1999):
-/// in the 2 * bit_ceil(n) rows of n columns any three columns take all eight combinations equally often.
+/// Whether an entry of a two-level orthogonal array of strength 3 is the upper level (Hedayat, Sloane,
+/// Stufken, "Orthogonal Arrays", 1999): in the 2 * bit_ceil(n) rows of n columns any three columns take all
+/// eight combinations equally often.
 bool upperIn(std::size_t row, std::size_t column) {
     return std::popcount(row & (1 | (column % mostColumns) << 1)) % 2 == 1;
 }
