@@ -8,8 +8,9 @@
 namespace tss {
 namespace {
 
-/// Of a number squared twice: a place as far from one bone as from the other goes half with either, one at
-/// half that distance to 94 %. With the square alone what lies thick on a bone would turn beside the joint.
+/// The power of the distances in a muscle's shares: a place as far from one bone as from the other goes half
+/// with either, one at half that distance to 94 %. With squares what lies thick on a bone would turn beside
+/// the joint.
 double fourthPower(double x) {
     return x * x * x * x;
 }
@@ -18,8 +19,8 @@ double fourthPower(double x) {
 /// infinitely firm.
 constexpr double leastReach = 0.02;
 
-/// Of a ring, which lies on other bones than those that its parts belong to, as a closed upper lip on the
-/// lower teeth: by claims along the surface.
+/// The shares of a ring, by claims along the surface: its parts lie on other bones than those that they
+/// belong to, as a closed upper lip on the lower teeth.
 std::vector<double> claimedAround(const TriangleMesh& surface, const TriangleMesh& origin,
                                   const TriangleMesh& insertion, const ShareOptions& options) {
     std::vector<SkinInfluence> influences;
@@ -33,7 +34,7 @@ std::vector<double> claimedAround(const TriangleMesh& surface, const TriangleMes
     return claimedShares(surface, skinGraph(surface), influences, options)[1];
 }
 
-/// Of a muscle with two ends: by how much nearer a vertex is to the one bone than to the other.
+/// The shares of a muscle with two ends: by how much nearer a vertex is to the one bone than to the other.
 std::vector<double> nearerBone(const TriangleMesh& surface, const TriangleMesh& origin,
                                const TriangleMesh& insertion, const ShareOptions& options) {
     const SkinGraph graph = skinGraph(surface);

@@ -39,10 +39,11 @@ void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameter
         for (const double w : list)
             if (!(w >= 0 && w <= 1)) throw InputError("the shares of a skin lie in [0, 1]");
     }
-    for (const BoneSwing& swing : p.swings)
-        for (const std::vector<Pose>& station : swing)
-            if (station.size() != bodies)
-                throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
+    for (const std::vector<BoneSwing>* swings : {&p.swings, &p.together})
+        for (const BoneSwing& swing : *swings)
+            for (const std::vector<Pose>& station : swing)
+                if (station.size() != bodies)
+                    throw InputError("the swings of the bones under a skin need one pose a muscle or bone");
     if (p.iterations < 1) throw InputError("a skin needs at least one iteration");
 }
 

@@ -7,7 +7,9 @@
 #include "bake/respond/SkinScene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace tss {
 namespace {
@@ -17,8 +19,8 @@ namespace {
 /// mouth along.
 constexpr double contactReach = 3;
 constexpr std::size_t leastStops = 4; ///< on a swing, however little it moves
-/// On all ways of several joints together, so that loading a skin of fifty bones takes seconds: few long
-/// steps find folds all the same, up to half a step away.
+/// Number of stations on all ways of several joints together, so that a skin of fifty bones is loaded in
+/// seconds: folds are found up to half a step away, however long it is.
 constexpr std::size_t mostTogether = 256;
 
 /// Activations and poses at which contacts are sought.
@@ -28,34 +30,48 @@ struct Station {
     std::size_t stop = 0; ///< on a swing, from 1 on; 0: elsewhere
 };
 
-/// How far a swing moves bodies, at most: the length of its way, run-time lengths.
-double wayOf(const SkinRig& rig, const BoneSwing& swing) {
-    double longest = 0;
-    for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
+using Corners = std::array<Vec3, 8>;
+
+/// The corners of the bodies' bounds at rest, run-time lengths.
+std::vector<Corners> cornersOf(const SkinRig& rig) {
+    std::vector<Corners> result(rig.bodies.size());
+    for (std::size_t m = 0; m < result.size(); ++m) {
         Eigen::AlignedBox3f box;
         for (const Move& x : rig.bodies[m].rest) box.extend(x.head<3>());
-        if (box.isEmpty()) continue;
-        for (int c = 0; c < 8; ++c) {
-            const Vec3 rest = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(c)).cast<double>();
-            Vec3 before = rest;
-            double way = 0;
-            for (const std::vector<Pose>& sample : swing) {
-                const Vec3 now = rig.local(sample[m]) * rest;
-                way += (now - before).norm();
-                before = now;
+        for (int c = 0; c < 8; ++c)
+            result[m][c] =
+                box.isEmpty()
+                    ? Vec3(Vec3::Zero())
+                    : Vec3(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(c)).cast<double>());
+    }
+    return result;
+}
+
+/// How far a swing moves bodies, at most: the length of its way, run-time lengths.
+double wayOf(const SkinRig& rig, const std::vector<Corners>& corners, const BoneSwing& swing) {
+    double longest = 0;
+    for (std::size_t m = 0; m < corners.size(); ++m) {
+        if (rig.bodies[m].rest.empty()) continue;
+        Corners before = corners[m];
+        std::array<double, 8> ways{};
+        for (const std::vector<Pose>& sample : swing) {
+            const Pose pose = rig.local(sample[m]);
+            for (std::size_t c = 0; c < 8; ++c) {
+                const Vec3 now = pose * corners[m][c];
+                ways[c] += (now - before[c]).norm();
+                before[c] = now;
             }
-            longest = std::max(longest, way);
         }
+        longest = std::max(longest, *std::ranges::max_element(ways));
     }
     return longest;
 }
 
-/// most: number of its stations, at most.
-void addStations(const SkinRig& rig, const BoneSwing& swing, const Station& rest, std::size_t most,
-                 std::vector<Station>& result) {
+/// Adds stations on a swing whose way is so long, `most` of them at most.
+void addStations(const SkinRig& rig, const BoneSwing& swing, double way, const Station& rest,
+                 std::size_t most, std::vector<Station>& result) {
     const double step = 4 * contactReach * static_cast<double>(rig.radius);
-    const std::size_t needed =
-        step > 0 ? static_cast<std::size_t>(std::min(std::ceil(wayOf(rig, swing) / step), 1e6)) : 0;
+    const std::size_t needed = step > 0 ? static_cast<std::size_t>(std::min(std::ceil(way / step), 1e6)) : 0;
     const std::size_t stops =
         std::min(std::clamp(needed, leastStops, std::max(leastStops, swing.size())), most);
     for (std::size_t s = 1; s <= stops; ++s)
@@ -72,12 +88,15 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
             result.push_back(rest);
             result.back().activations[m] = end;
         }
+    const std::vector<Corners> corners = cornersOf(rig);
+    const auto addAll = [&](const std::vector<BoneSwing>& swings, std::size_t most) {
+        for (const BoneSwing& swing : swings)
+            addStations(rig, swing, wayOf(rig, corners, swing), rest, most, result);
+    };
     const SkinParameters& parameters = rig.parameters;
-    for (const BoneSwing& swing : parameters.swings)
-        addStations(rig, swing, rest, swing.size() + leastStops, result);
-    for (const BoneSwing& swing : parameters.together)
-        addStations(rig, swing, rest, std::max<std::size_t>(1, mostTogether / parameters.together.size()),
-                    result);
+    addAll(parameters.swings, std::numeric_limits<std::size_t>::max());
+    addAll(parameters.together,
+           std::max<std::size_t>(1, mostTogether / std::max<std::size_t>(1, parameters.together.size())));
     return result;
 }
 
