@@ -220,9 +220,10 @@ void runBake(BakeArguments& arguments, Console& console) {
                              : arguments.allPairs  ? describe(result) + tally(result["pairs"])
                                                    : describe(now ? only(result, *now) : result);
     console.say(told + "wrote " + arguments.output);
+    const auto stuck = static_cast<std::size_t>(std::ranges::count_if(result["pairs"], hasNoRoom));
     for (std::size_t k = 0; k < scene.pairs.size(); ++k)
         if (hasNoRoom(result["pairs"][k]))
-            result["pairs"][k]["freeingMoves"] = adviseMoves(scene, scene.pairs[k], console);
+            result["pairs"][k]["freeingMoves"] = adviseMoves(scene, scene.pairs[k], stuck, console);
     console.print(result);
 }
 

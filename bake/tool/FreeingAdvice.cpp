@@ -79,9 +79,10 @@ Motion widened(const FreeingMove& move, const Motion& before) {
 
 class Adviser {
 public:
-    Adviser(const SceneModel& scene, const Pair& pair, const Console& console)
-        : unit_(scene.metersPerUnit), pair_(pair), console_(console), motion_(pairMotion(scene, pair)),
-          a_(originalName(scene.bodies[pair.bodyA])), b_(originalName(scene.bodies[pair.bodyB])) {
+    Adviser(const SceneModel& scene, const Pair& pair, bool onlyBest, const Console& console)
+        : unit_(scene.metersPerUnit), pair_(pair), onlyBest_(onlyBest), console_(console),
+          motion_(pairMotion(scene, pair)), a_(originalName(scene.bodies[pair.bodyA])),
+          b_(originalName(scene.bodies[pair.bodyB])) {
         // In scenes that `tss make` made, B has the axes of A and is moved by the offset.
         const Pose atZero = pose(motion_, std::vector<double>(motion_.dofCount(), 0.0));
         if ((atZero.linear() - Eigen::Matrix3d::Identity()).norm() < 1e-6) madeBy_ = madeBy(scene, pair);
@@ -105,11 +106,12 @@ public:
                                      moves.empty() ? ", and none was found" : ", smaller ones may exist"));
         if (moves.empty()) return advice;
         size_ = std::min(diagonal(a), diagonal(b));
-        console_.say(fmt::format(
-            "{}: the meshes overlap where the joint rests. Options of tss make that move "
-            "{} out of {}, found by\n  trying, the best first{}:",
-            pair_.path, b_, a_, madeBy_ == MadeBy::TwoMeshes ? "; they take the place of those given" : ""));
-        for (const FreeingMove& move : moves) advice.push_back(sayMove(move));
+        console_.say(
+            fmt::format("{}: the meshes overlap where the joint rests. Options of tss make that move "
+                        "{} out of {}, found by\n  trying, the best{}{}:",
+                        pair_.path, b_, a_, onlyBest_ ? " alone (--json has all)" : " first",
+                        madeBy_ == MadeBy::TwoMeshes ? "; they take the place of those given" : ""));
+        for (const FreeingMove& move : moves) advice.push_back(sayMove(move, !onlyBest_ || advice.empty()));
         return advice;
     }
 
@@ -167,7 +169,7 @@ private:
                            fmt::join(values, named ? ", " : ","));
     }
 
-    Json sayMove(const FreeingMove& move) const {
+    Json sayMove(const FreeingMove& move, bool aloud) const {
         const std::string words = option(move.shift, move.motion, move.axes.norm() > 1e-6 * size_);
         const char* beside = madeBy_ == MadeBy::TwoMeshes ? ""
                              : words.starts_with("--offset")
@@ -185,7 +187,7 @@ private:
         if (move.free > 0 && 0.3 * move.least < size_ / 500)
             tolerance = lengthOption(roundedDownToDigit(0.3 * move.least), unit_);
         if (!tolerance.empty()) text += fmt::format("; then bake with --tolerance {}", tolerance);
-        console_.say(text);
+        if (aloud) console_.say(text);
         return {{"option", words},
                 {"shift", {move.shift.x(), move.shift.y(), move.shift.z()}},
                 {"axes", {move.axes.x(), move.axes.y(), move.axes.z()}},
@@ -209,14 +211,16 @@ private:
                                  dof.kind == DofKind::Rotation ? " degrees" : "", ofDof(dof));
         }
         const std::string words = canSayDofs_ ? option(move.shift, widened(move, motion_), true) : "";
-        console_.say(fmt::format(
-            "    {} meets nothing within these limits then; beyond them it does, {} at the latest{}{}", b_,
-            where, canSayDofs_ ? ". For limits that go on past contact:\n    " : "", words));
+        if (!onlyBest_)
+            console_.say(fmt::format(
+                "    {} meets nothing within these limits then; beyond them it does, {} at the latest{}{}",
+                b_, where, canSayDofs_ ? ". For limits that go on past contact:\n    " : "", words));
         return {{"where", where}, {"option", words}};
     }
 
     const double unit_;
     const Pair& pair_;
+    const bool onlyBest_;
     const Console& console_;
     const Motion motion_;
     std::string a_, b_; ///< the bodies, as the user knows them
@@ -228,10 +232,11 @@ private:
 
 } // namespace
 
-Json adviseMoves(const SceneModel& scene, const Pair& pair, const Console& console) {
+Json adviseMoves(const SceneModel& scene, const Pair& pair, std::size_t pairs, const Console& console) {
+    constexpr std::size_t readable = 3; // pairs, of which a page of text has room for all moves
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
     if (a.empty() || b.empty()) return Json::array();
-    return Adviser(scene, pair, console).say(cleaned(a), cleaned(b));
+    return Adviser(scene, pair, pairs > readable, console).say(cleaned(a), cleaned(b));
 }
 
 } // namespace tss::tool

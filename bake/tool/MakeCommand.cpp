@@ -164,7 +164,7 @@ void makePair(const MakeArguments& arguments, const Console& console) {
     console.print({{"output", arguments.output},
                    {"pair", scene.pairs[pair].path},
                    {"meshes", audits},
-                   {"freeingMoves", adviseMoves(scene, scene.pairs[pair], console)}});
+                   {"freeingMoves", adviseMoves(scene, scene.pairs[pair], 1, console)}});
 }
 
 void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {

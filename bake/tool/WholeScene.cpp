@@ -137,12 +137,14 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
         applyMotion(made.scene, arguments.motion);
     saveScene(made.scene, arguments.output);
     Json result = sayScene(made, arguments.output, console);
+    std::vector<const Pair*> tied;
     for (const Pair& pair : made.scene.pairs)
-        if (tiesDirectly(made.scene, pair))
-            for (Json& move : adviseMoves(made.scene, pair, console)) {
-                move["pair"] = pair.path;
-                result["freeingMoves"].push_back(std::move(move));
-            }
+        if (tiesDirectly(made.scene, pair)) tied.push_back(&pair);
+    for (const Pair* const pair : tied)
+        for (Json& move : adviseMoves(made.scene, *pair, tied.size(), console)) {
+            move["pair"] = pair->path;
+            result["freeingMoves"].push_back(std::move(move));
+        }
     console.print(result);
 }
 

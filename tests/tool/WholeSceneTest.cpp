@@ -3,6 +3,7 @@
 #include "tests/tool/Swing.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 using Json = nlohmann::json;
@@ -339,4 +340,26 @@ TEST_CASE("what cannot be is remarked upon, and what is wrong is refused with th
     refused(limb + "--muscle calf.obj,strong", 1, "found \"strong\"");
     refused(limb + "--bone upper", 2, "--skin");
     refused(limb + "--a upper.obj", 2, "--a");
+}
+
+TEST_CASE("of many joints that overlap at rest only the best move of each is said") {
+    const Folder folder;
+    std::string bodies, joints;
+    for (int k = 0; k < 5; ++k) {
+        const std::string name = "b" + std::to_string(k);
+        writeObj(boxMesh({2.0 * k, -0.2, -0.2}, {2.0 * k + 2.02, 0.2, 0.2}), folder / (name + ".obj"));
+        bodies += "--body " + name + ".obj ";
+        if (k > 0) joints += fmt::format("--joint 'j{}=b{},b{}:rot:{},0,0:0,1,0:-3:40' ", k, k - 1, k, 2 * k);
+        if (k < 1) continue;
+        const Ran ran = runTss("make -o row.tss --json " + bodies + joints, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        std::size_t said = 0;
+        for (auto at = ran.err.find(" elsewhere, free at "); at != std::string::npos;
+             at = ran.err.find(" elsewhere, free at ", at + 1))
+            ++said;
+        const std::size_t all = Json::parse(ran.out)["freeingMoves"].size();
+        CHECK(all > static_cast<std::size_t>(k));
+        CHECK(said == (k > 3 ? 4 : all));
+    }
 }
