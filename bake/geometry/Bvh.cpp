@@ -131,17 +131,10 @@ Bvh buildBvh(std::span<const Box> boxes, std::uint32_t leafSize, const std::func
     return Builder(boxes, std::max(leafSize, 1u), stop).build();
 }
 
-void refit(Bvh& bvh, std::span<const Box> boxes) {
-    for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
-        Bvh::Node& node = bvh.nodes[i];
-        Box box;
-        for (std::uint32_t k = 0; k < node.count; ++k) box.extend(boxes[bvh.items[node.first + k]]);
-        if (node.count == 0)
-            for (const std::uint32_t child : {node.first, node.first + 1})
-                box.extend(Box(bvh.nodes[child].lower, bvh.nodes[child].upper));
-        node.lower = box.min();
-        node.upper = box.max();
-    }
+Bvh buildBvh(const TriangleMesh& mesh, std::uint32_t leafSize) {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) boxes.push_back(bounds(mesh, t));
+    return buildBvh(boxes, leafSize);
 }
 
 } // namespace tss

@@ -34,9 +34,8 @@ struct Bvh {
 Bvh buildBvh(std::span<const Eigen::AlignedBox3d> boxes, std::uint32_t leafSize = 4,
              const std::function<bool()>& stop = {});
 
-/// Sets the boxes anew, as of items that have moved; the hierarchy stays as it is. boxes: as many as it was
-/// built of.
-void refit(Bvh& bvh, std::span<const Eigen::AlignedBox3d> boxes);
+/// Over the triangles of a mesh.
+Bvh buildBvh(const TriangleMesh& mesh, std::uint32_t leafSize = 4);
 
 inline double squaredDistance(const Bvh::Node& node, const Vec3& p) {
     return (node.lower - p).cwiseMax(p - node.upper).cwiseMax(0.0).squaredNorm();

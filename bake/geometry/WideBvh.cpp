@@ -2,16 +2,8 @@
 
 namespace tss {
 
-namespace {
-
-bool isEmpty(const Bvh::Node& node) {
-    return node.lower[0] > node.upper[0];
-}
-
-} // namespace
-
 WideBvh::WideBvh(const Bvh& bvh, std::span<const Vec3> normals) : items_(bvh.items) {
-    if (bvh.empty() || isEmpty(bvh.nodes.front())) return;
+    if (bvh.empty()) return;
     std::vector<Eigen::AlignedBox3d> below(bvh.nodes.size());
     for (std::size_t i = below.size(); i-- > 0;) {
         const Bvh::Node& node = bvh.nodes[i];
@@ -45,7 +37,6 @@ std::uint32_t WideBvh::add(const Bvh& bvh, std::uint32_t index,
     for (int k = 0; k < 3; ++k) node.least[k] = node.most[k] = Four::Zero();
     for (std::size_t c = 0; c < count; ++c) {
         const Bvh::Node& child = bvh.nodes[below[c]];
-        if (isEmpty(child)) continue;
         const auto lane = static_cast<Eigen::Index>(c);
         for (int k = 0; k < 3; ++k) {
             node.lower[k][lane] = static_cast<float>(child.lower[k] - centre_[k]);
@@ -57,7 +48,7 @@ std::uint32_t WideBvh::add(const Bvh& bvh, std::uint32_t index,
         node.count[c] = child.count;
     }
     for (std::size_t c = 0; c < count; ++c)
-        if (bvh.nodes[below[c]].count == 0 && !isEmpty(bvh.nodes[below[c]])) {
+        if (bvh.nodes[below[c]].count == 0) {
             const std::uint32_t child = add(bvh, below[c], normals);
             nodes_[place].first[c] = child;
         }

@@ -9,7 +9,7 @@ namespace tss {
 class WideBvh {
 public:
     WideBvh() = default;
-    /// normals: of the items, unit or zero. What has an empty box is never visited.
+    /// normals: of the items, unit or zero.
     WideBvh(const Bvh& bvh, std::span<const Vec3> normals);
 
     /// As visitNearest() of a Bvh. facing: subtrees in which no item's normal n has n . facing > 0 are

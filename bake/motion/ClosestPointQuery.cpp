@@ -19,23 +19,11 @@ std::vector<Vec3> vertexNormals(const TriangleMesh& mesh) {
     return normals;
 }
 
-namespace {
-
-Bvh treeOf(const TriangleMesh& mesh) {
-    std::vector<Eigen::AlignedBox3d> boxes;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) boxes.push_back(bounds(mesh, t));
-    return buildBvh(boxes, 1);
-}
-
-} // namespace
-
-ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh) : ClosestPointQuery(mesh, treeOf(mesh)) {}
-
-ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh, const Bvh& triangles) : mesh_(mesh) {
+ClosestPointQuery::ClosestPointQuery(const TriangleMesh& mesh) : mesh_(mesh) {
     std::vector<Vec3> normals;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         normals.push_back(mesh.areaNormal(t).normalized());
-    bvh_ = WideBvh(triangles, normals);
+    bvh_ = WideBvh(buildBvh(mesh, 1), normals);
 }
 
 NearestPoint ClosestPointQuery::search(const Vec3& x, double range, const Vec3& facing, int first) const {

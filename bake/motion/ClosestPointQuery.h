@@ -56,8 +56,6 @@ std::vector<Vec3> vertexNormals(const TriangleMesh& mesh);
 class ClosestPointQuery {
 public:
     explicit ClosestPointQuery(const TriangleMesh& mesh);
-    /// With a hierarchy over the boxes of its triangles that is there already.
-    ClosestPointQuery(const TriangleMesh& mesh, const Bvh& triangles);
 
     /// The nearest point that is nearer than `range`. Of equally near triangles the first visited counts.
     NearestPoint nearest(const Vec3& x, double range) const;

@@ -1,9 +1,8 @@
 #include "bake/respond/SkinContactSearch.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/motion/ClosestPointQuery.h"
+#include "bake/respond/MovingTriangles.h"
 #include "bake/respond/SkinContact.h"
-#include "bake/respond/SkinRows.h"
 #include "bake/respond/SkinScene.h"
 
 #include <algorithm>
@@ -100,11 +99,17 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
     return result;
 }
 
+std::vector<Vec3> placesOf(const std::vector<Move>& vertices) {
+    std::vector<Vec3> places;
+    for (const Move& x : vertices) places.push_back(x.head<3>().cast<double>());
+    return places;
+}
+
 class Search {
 public:
     explicit Search(const SkinRig& rig)
         : rig_(rig), reach_(contactReach * static_cast<double>(rig.radius)),
-          depth_(static_cast<double>(enterDepth * rig.radius)) {
+          depth_(static_cast<double>(enterDepth * rig.radius)), skin_({placesOf(rig.places), rig.triangles}) {
         found_.bodies = SkinContacts(rig.bodyVertices);
         if (rig.parameters.selfContact) found_.folds = SkinContacts(rig.places.size());
     }
@@ -116,82 +121,70 @@ public:
 
 private:
     void visit(const Station& station) {
-        if (station.stop > 0) before_ = station.stop == 1 ? rest_ : scene_.carried;
         placeBodies(rig_, station.activations, station.poses, {}, scene_);
-        skin_ = meshOf(scene_.carried, rig_.triangles);
-        atRest_ = rest_.empty();
-        if (atRest_) rest_ = scene_.carried;
-        if (station.stop == 0) before_ = scene_.carried;
-        longestMove_ = 0;
-        for (int v = 0; v < static_cast<int>(skin_.vertices.size()); ++v)
-            longestMove_ = std::max(longestMove_, moveOf(v).norm());
-        std::vector<Eigen::AlignedBox3d> boxes, changed(skin_.triangles.size());
-        for (std::size_t t = 0; t < skin_.triangles.size(); ++t) {
-            boxes.push_back(bounds(skin_, t));
-            const Tri& corners = skin_.triangles[t];
-            if (moved(corners[0]) || moved(corners[1]) || moved(corners[2])) changed[t] = boxes[t];
-        }
-        if (atRest_) {
-            tree_ = buildBvh(boxes, 1);
-            changed = boxes;
-        }
-        refit(tree_, changed);
-        const ClosestPointQuery toChanged(skin_, tree_);
-        refit(tree_, boxes);
-        const ClosestPointQuery toAll(skin_, tree_);
-        findBodyContacts(toAll, toChanged);
-        if (rig_.parameters.selfContact) findFolds(toAll, toChanged);
-    }
-
-    bool moved(int v) const { return scene_.carried[v] != rest_[v]; }
-
-    /// How far a vertex of the skin has come since the last station.
-    Vec3 moveOf(int v) const { return (scene_.carried[v] - before_[v]).head<3>().cast<double>(); }
-
-    /// Half of how far a vertex that has come by `move` and the point of the skin near it have come against
-    /// one another since the last station: by so much they may have been nearer between the two.
-    double halfStep(const Vec3& move, const NearestPoint& near) const {
-        Vec3 relative = move;
-        for (int k = 0; k < 3; ++k) relative -= near.weights[k] * moveOf(rig_.triangles[near.triangle][k]);
-        return relative.norm() / 2;
+        const std::vector<Vec3> places = placesOf(scene_.carried);
+        skin_.moveTo(places, station.stop == 0   ? places
+                             : station.stop == 1 ? skin_.rest()
+                                                 : std::vector<Vec3>(skin_.now().vertices));
+        findBodyContacts();
+        if (rig_.parameters.selfContact) findFolds();
+        atRest_ = false;
     }
 
     Vec3 normalOf(const NearestPoint& near) const {
-        return skin_.areaNormal(static_cast<std::size_t>(near.triangle)).normalized();
+        return skin_.now().areaNormal(static_cast<std::size_t>(near.triangle)).normalized();
+    }
+
+    /// What is asked about at a time, of one body or of the skin: mostly neighbours.
+    static constexpr std::size_t groupSize = SkinRig::block;
+    template <class Each>
+    static void eachGroup(std::size_t count, const Each& each) {
+        parallelFor((count + groupSize - 1) / groupSize, [&](std::size_t group) {
+            each(group * groupSize, std::min(count, (group + 1) * groupSize));
+        });
     }
 
     /// Body vertices that come near to the skin above them. What has not moved since rest meets nothing new
     /// but skin that has.
-    void findBodyContacts(const ClosestPointQuery& toAll, const ClosestPointQuery& toChanged) {
-        const Eigen::AlignedBox3d box = bounds(skin_);
+    void findBodyContacts() {
         for (std::size_t m = 0; m < rig_.bodies.size(); ++m) {
             const SkinBody& body = rig_.bodies[m];
             const SkinScene::Placed& now = scene_.bodies[m];
-            const bool still = now.activation == 0 && !now.moved && isIdentity(now.far);
-            parallelFor(body.count, [&](std::size_t k) {
-                findBodyContact(still ? toChanged : toAll, box, m,
-                                body.first + static_cast<std::uint32_t>(k));
+            const bool still = !atRest_ && now.activation == 0 && !now.moved && isIdentity(now.far);
+            eachGroup(body.count, [&](std::size_t first, std::size_t last) {
+                MovingTriangles::Group group;
+                if (atRest_) group.facings.extend(Vec3(0, 0, 0));
+                for (std::size_t v = body.first + first; v < body.first + last; ++v) {
+                    group.places.extend(placeOf(now, v));
+                    group.facings.extend(facingOf(now, v));
+                }
+                if (!skin_.mayMeet(group, reach_, still)) return;
+                for (std::size_t v = body.first + first; v < body.first + last; ++v)
+                    findBodyContact(still, body.bone(), v, placeOf(now, v), facingOf(now, v));
             });
         }
     }
 
-    void findBodyContact(const ClosestPointQuery& locator, const Eigen::AlignedBox3d& box, std::size_t m,
-                         std::uint32_t v) {
+    Vec3 placeOf(const SkinScene::Placed& body, std::size_t v) const {
+        return body.toSkin(scene_.surface[v].head<3>()).cast<double>();
+    }
+    Vec3 facingOf(const SkinScene::Placed& body, std::size_t v) const {
+        return (body.turn * scene_.normals[v].head<3>()).cast<double>();
+    }
+
+    void findBodyContact(bool still, bool bone, std::size_t v, const Vec3& x, const Vec3& own) {
         SkinContacts& found = found_.bodies;
         if (found.outside[v] || found.stickingOut[v]) return;
-        const SkinScene::Placed& now = scene_.bodies[m];
-        const Vec3 x = now.toSkin(scene_.surface[v].head<3>()).cast<double>();
-        if (box.squaredExteriorDistance(x) > reach_ * reach_) return;
-        if (atRest_ && !rig_.bodies[m].bone()) {
-            const NearestPoint any = locator.nearest(x, reach_);
+        if (atRest_ && !bone) {
+            const NearestPoint any = skin_.nearest(x, Vec3::Zero(), reach_, false);
             if (any.triangle >= 0 && normalOf(any).dot(x - any.point) > 0) {
                 found.outside[v] = 1;
                 found.add(v, any.triangle);
                 return;
             }
         }
-        const Vec3 own = (now.turn * scene_.normals[v].head<3>()).cast<double>();
-        const NearestPoint near = locator.nearestFacing(x, reach_, own);
+        if (own.isZero(0)) return;
+        const NearestPoint near = skin_.nearest(x, own, reach_, still);
         if (near.triangle < 0) return;
         if (normalOf(near).dot(near.point - x) >= -depth_)
             found.add(v, near.triangle);
@@ -200,35 +193,42 @@ private:
     }
 
     /// Skin vertices that come near to another part of the skin.
-    void findFolds(const ClosestPointQuery& toAll, const ClosestPointQuery& toChanged) {
-        parallelFor(skin_.vertices.size(), [&](std::size_t v) {
-            const Vec3 own = scene_.normalOf(v).cast<double>(), move = moveOf(static_cast<int>(v));
-            const Vec3& x = skin_.vertices[v];
-            const double range = reach_ + (move.norm() + longestMove_) / 2;
-            const ClosestPointQuery& locator = moved(static_cast<int>(v)) ? toAll : toChanged;
-            const NearestPoint near = locator.nearestFacing(x, range, -own);
-            if (near.triangle < 0 || (skin_.triangles[near.triangle].array() == static_cast<int>(v)).any())
-                return;
-            const double half = halfStep(move, near);
-            if (near.distance > reach_ + half) return;
-            // In front of the triangle, and the triangle in front of the vertex: not the back of its own
-            // layer.
-            if (normalOf(near).dot(x - near.point) < -depth_ - half ||
-                own.dot(near.point - x) < -depth_ - half)
-                return;
-            found_.folds.add(v, near.triangle);
+    void findFolds() {
+        eachGroup(rig_.places.size(), [&](std::size_t first, std::size_t last) {
+            MovingTriangles::Group group;
+            bool still = !atRest_;
+            for (std::size_t v = first; v < last; ++v) {
+                group.places.extend(skin_.now().vertices[v]);
+                group.facings.extend(Vec3(-scene_.normalOf(v).cast<double>()));
+                group.moves.extend(skin_.moveOf(v));
+                still = still && !skin_.changed(v);
+            }
+            if (!skin_.mayMeet(group, reach_, still)) return;
+            for (std::size_t v = first; v < last; ++v) findFold(v);
         });
+    }
+
+    void findFold(std::size_t v) {
+        const Vec3 own = scene_.normalOf(v).cast<double>();
+        const Vec3& x = skin_.now().vertices[v];
+        if (own.isZero(0)) return;
+        const bool still = !atRest_ && !skin_.changed(v);
+        const auto near = skin_.nearest(x, -own, reach_, still, &skin_.moveOf(v));
+        if (near.triangle < 0 || (rig_.triangles[near.triangle].array() == static_cast<int>(v)).any()) return;
+        // In front of the triangle, and the triangle in front of the vertex: not the back of its own
+        // layer.
+        if (normalOf(near).dot(x - near.point) < -depth_ - near.half ||
+            own.dot(near.point - x) < -depth_ - near.half)
+            return;
+        found_.folds.add(v, near.triangle);
     }
 
     const SkinRig& rig_;
     const double reach_, depth_; ///< run-time lengths
     SkinContactSearch found_;
     SkinScene scene_;
-    std::vector<Move> rest_, before_; ///< SkinScene::carried at rest and at the last station of the swing
-    TriangleMesh skin_;
+    MovingTriangles skin_; ///< as bodies carry it
     bool atRest_ = true;
-    double longestMove_ = 0; ///< of a vertex of the skin since the last station
-    Bvh tree_;               ///< over the triangles of the skin
 };
 
 } // namespace

@@ -80,34 +80,3 @@ TEST_CASE("the nearest triangle that faces a way is found as by looking at all o
         }
     }
 }
-
-TEST_CASE("a hierarchy whose boxes were set anew finds what is nearest of a mesh that has moved") {
-    std::mt19937_64 random(11);
-    std::uniform_real_distribution<double> along(-1, 1);
-    TriangleMesh mesh = ballMesh(Vec3(0.3, -0.2, 0.1), 1, 2);
-    const auto boxes = [&](std::size_t every) {
-        std::vector<Eigen::AlignedBox3d> result(mesh.triangles.size());
-        for (std::size_t t = 0; t < result.size(); t += every) result[t] = bounds(mesh, t);
-        return result;
-    };
-    Bvh tree = buildBvh(boxes(1), 1);
-    for (Vec3& v : mesh.vertices) v += 0.3 * Vec3(along(random), along(random), along(random));
-    for (const std::size_t every : {1u, 3u, 10000u}) { // the others have empty boxes, and count as none
-        refit(tree, boxes(every));
-        const ClosestPointQuery query(mesh, tree);
-        for (int i = 0; i < 200; ++i) {
-            const Vec3 x = 1.5 * Vec3(along(random), along(random), along(random));
-            double least = 0.8;
-            for (std::size_t t = 0; t < mesh.triangles.size(); t += every) {
-                const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-                const Vec3 w = nearestOnTriangle(x, a, b, c);
-                least = std::min(least, (w[0] * a + w[1] * b + w[2] * c - x).norm());
-            }
-            const NearestPoint near = query.nearest(x, 0.8);
-            CHECK((near.triangle < 0) == (least == 0.8));
-            if (near.triangle >= 0) CHECK(std::abs(near.distance - least) < 1e-12);
-        }
-    }
-    refit(tree, std::vector<Eigen::AlignedBox3d>(mesh.triangles.size()));
-    CHECK(ClosestPointQuery(mesh, tree).nearest(Vec3::Zero(), 10).triangle == -1);
-}

@@ -1,0 +1,59 @@
+#pragma once
+#include "bake/geometry/Bvh.h"
+#include "bake/motion/ClosestPointQuery.h"
+
+namespace tss {
+
+/// The triangles of a skin on their way from station to station, in a hierarchy whose boxes are set anew at
+/// each: which of them something came near to, there or since the last.
+class MovingTriangles {
+public:
+    explicit MovingTriangles(TriangleMesh rest);
+
+    /// Sets where the vertices are, and where they were at the station before.
+    void moveTo(const std::vector<Vec3>& places, const std::vector<Vec3>& before);
+
+    const TriangleMesh& now() const { return now_; }
+    const std::vector<Vec3>& rest() const { return rest_; }
+    bool changed(std::size_t vertex) const { return now_.vertices[vertex] != rest_[vertex]; }
+    /// How far a vertex has come since the station before.
+    const Vec3& moveOf(std::size_t vertex) const { return moves_[vertex]; }
+
+    struct Met : NearestPoint {
+        double half = 0; ///< half of how far both have come against one another: by so much they may have
+                         ///< been nearer on the way
+    };
+    /// Points that are asked about together.
+    struct Group {
+        Eigen::AlignedBox3d places, facings, moves; ///< moves: empty where the station alone counts
+    };
+    /// Whether nearest() may find a triangle for some point of a group, none of which faces nowhere.
+    bool mayMeet(const Group& group, double reach, bool onlyChanged) const;
+
+    /// The nearest triangle, of those whose normal n has n . facing > 0 (zero facing: of all) and, with
+    /// `onlyChanged`, that are not where they are at rest. It is nearer to x than `reach`, or may have been
+    /// on the way on which x came by *move; null: at the station alone.
+    Met nearest(const Vec3& x, const Vec3& facing, double reach, bool onlyChanged,
+                const Vec3* move = nullptr) const;
+
+private:
+    /// Of what is in a node of the tree.
+    struct Bounds {
+        Eigen::AlignedBox3d places, moves, normals;
+        bool changed = false;
+        void extend(const Bounds& other);
+    };
+    Bounds boundsOf(std::uint32_t triangle) const;
+    bool hasChanged(std::uint32_t triangle) const;
+    /// Whether a node that comes so near to a group may hold what nearest() finds.
+    bool counts(std::uint32_t node, const Group& group, double distance2, double reach,
+                bool onlyChanged) const;
+    double halfOf(std::uint32_t triangle, const Vec3& weights, const Vec3& move) const;
+
+    TriangleMesh now_;
+    std::vector<Vec3> rest_, moves_;
+    Bvh tree_;                   ///< of the triangles at rest
+    std::vector<Bounds> bounds_; ///< of its nodes
+};
+
+} // namespace tss
