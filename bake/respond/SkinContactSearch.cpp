@@ -109,7 +109,8 @@ class Search {
 public:
     explicit Search(const SkinRig& rig)
         : rig_(rig), reach_(contactReach * static_cast<double>(rig.radius)),
-          depth_(static_cast<double>(enterDepth * rig.radius)), skin_({placesOf(rig.places), rig.triangles}) {
+          depth_(static_cast<double>(enterDepth * rig.radius)), rest_{placesOf(rig.places), rig.triangles},
+          wayAtRest_(rest_), skin_(rest_) {
         found_.bodies = SkinContacts(rig.bodyVertices);
         if (rig.parameters.selfContact) found_.folds = SkinContacts(rig.places.size());
     }
@@ -160,7 +161,7 @@ private:
                 }
                 if (!skin_.mayMeet(group, reach_, still)) return;
                 for (std::size_t v = body.first + first; v < body.first + last; ++v)
-                    findBodyContact(still, body.bone(), v, placeOf(now, v), facingOf(now, v));
+                    findBodyContact(body, still, v, placeOf(now, v), facingOf(now, v));
             });
         }
     }
@@ -172,10 +173,10 @@ private:
         return (body.turn * scene_.normals[v].head<3>()).cast<double>();
     }
 
-    void findBodyContact(bool still, bool bone, std::size_t v, const Vec3& x, const Vec3& own) {
+    void findBodyContact(const SkinBody& body, bool still, std::size_t v, const Vec3& x, const Vec3& own) {
         SkinContacts& found = found_.bodies;
         if (found.outside[v] || found.stickingOut[v]) return;
-        if (atRest_ && !bone) {
+        if (atRest_ && !body.bone()) {
             const NearestPoint any = skin_.nearest(x, Vec3::Zero(), reach_, false);
             if (any.triangle >= 0 && normalOf(any).dot(x - any.point) > 0) {
                 found.outside[v] = 1;
@@ -186,10 +187,20 @@ private:
         if (own.isZero(0)) return;
         const NearestPoint near = skin_.nearest(x, own, reach_, still);
         if (near.triangle < 0) return;
-        if (normalOf(near).dot(near.point - x) >= -depth_)
+        if (normalOf(near).dot(near.point - x) < -depth_) {
+            if (atRest_) found.stickingOut[v] = 1;
+        } else if (under(body.rest[v - body.first].head<3>().cast<double>(), near.triangle)) {
             found.add(v, near.triangle);
-        else if (atRest_)
-            found.stickingOut[v] = 1;
+        }
+    }
+
+    /// At rest the straight way from a body's vertex to a triangle does not leave the skin: what it covers is
+    /// no other limb, whose skin is met from outside.
+    bool under(const Vec3& vertex, int triangle) const {
+        Vec3 middle = Vec3::Zero();
+        for (const int corner : rig_.triangles[triangle]) middle += skin_.rest()[corner] / 3;
+        constexpr double before = 1e-3; // of the way, where it ends
+        return wayAtRest_.entered(middle + before * (vertex - middle), vertex) < 0;
     }
 
     /// Skin vertices that come near to another part of the skin.
@@ -227,6 +238,8 @@ private:
     const double reach_, depth_; ///< run-time lengths
     SkinContactSearch found_;
     SkinScene scene_;
+    const TriangleMesh rest_;
+    const ClosestPointQuery wayAtRest_;
     MovingTriangles skin_; ///< as bodies carry it
     bool atRest_ = true;
 };

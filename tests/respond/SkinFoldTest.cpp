@@ -1,4 +1,5 @@
 #include "SkinShapes.h"
+#include "tests/Shapes.h"
 
 #include <algorithm>
 #include <array>
@@ -175,4 +176,37 @@ TEST_CASE("a skin whose parts never come near each other has no contact with its
     SkinParameters parameters;
     parameters.selfContact = true;
     CHECK(foldsOf(*usual.rig(parameters)) == 0);
+}
+
+TEST_CASE("a bone that goes into another limb is not taken for one that comes out of it from within") {
+    // Two limbs side by side, each a ball about a ball of bone; one goes through the other.
+    TriangleMesh skin = ballMesh({-1.5, 0, 0}, 1, 3);
+    const TriangleMesh other = ballMesh({1.5, 0, 0}, 1, 3);
+    const auto first = static_cast<int>(skin.vertices.size());
+    skin.vertices.insert(skin.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const Tri& t : other.triangles) skin.triangles.push_back(t.array() + first);
+    std::vector<Muscle> bones(2);
+    bones[0].surface = ballMesh({-1.5, 0, 0}, 0.9, 3);
+    bones[1].surface = ballMesh({1.5, 0, 0}, 0.3, 3);
+    for (Muscle& bone : bones) bone.activationUpper = 0;
+    const skins::Couple limbs = skins::couple(skin, bones, 0.1);
+    SkinParameters parameters;
+    parameters.frames = {0, 1};
+    const auto moved = [](double by) {
+        return std::vector<Pose>{Pose::Identity(), Pose(Eigen::Translation3d(-by, 0, 0))};
+    };
+    BoneSwing swing;
+    for (int s = 1; s <= 36; ++s) swing.push_back(moved(0.1 * s));
+    parameters.swings = {swing};
+    SkinResponse response(limbs.rig(parameters));
+    for (double by = 0.5; by < 4; by += 0.1) {
+        const SkinUpdate update = response.update(std::vector<double>(2, 0), moved(by));
+        INFO("moved by " << by);
+        CHECK(update.contacts == 0);
+        for (std::size_t v = 0; v < response.positions().size(); ++v) {
+            const Vec3& rest = response.rig().rest[v];
+            const Vec3 carried = rest - (rest.x() > 0 ? by : 0) * Vec3::UnitX();
+            REQUIRE((response.positions()[v] - carried).norm() < 1e-6);
+        }
+    }
 }
