@@ -12,7 +12,8 @@
 namespace tss {
 namespace {
 
-/// Shells up to this many times as far from bound skin as the nearest one are bound in the same round.
+/// Shells up to this many times as far from bound skin as the nearest one are bound in the same round,
+/// without a unit: so there are few rounds however many shells, and what lies on another shell waits for it.
 constexpr double alike = 2;
 
 struct Shell {

@@ -67,6 +67,31 @@ TEST_CASE("a muscle's ends are their bones' however short it is against them") {
     }
 }
 
+TEST_CASE("each half of a ring is its bone's however short it is against the two") {
+    // A ring about a mouth in the x-z plane, a radius of 1, before the ends of two bones as lips before
+    // teeth.
+    TriangleMesh ring;
+    const int around = 48, across = 8;
+    for (int i = 0; i < around; ++i)
+        for (int k = 0; k < across; ++k) {
+            const double u = 2 * M_PI * i / around, w = 2 * M_PI * k / across, r = 1 + 0.15 * std::cos(w);
+            ring.vertices.emplace_back(r * std::cos(u), 0.15 * std::sin(w), r * std::sin(u));
+            const int next = (i + 1) % around * across, here = i * across, beside = (k + 1) % across;
+            ring.triangles.emplace_back(here + k, here + beside, next + k);
+            ring.triangles.emplace_back(here + beside, next + beside, next + k);
+        }
+    for (const double length : {2.0, 10.0, 100.0}) {
+        INFO("a ring of radius 1 before bones of " << length);
+        const TriangleMesh upper = boxMesh({-1.2, 0.2, 0.1}, {1.2, length, 1.2}),
+                           lower = boxMesh({-1.2, 0.2, -1.2}, {1.2, length, -0.1});
+        const std::vector<double> shares = insertionShares(ring, upper, lower, MuscleForm::Ring);
+        for (std::size_t v = 0; v < shares.size(); ++v) {
+            const double height = ring.vertices[v].z();
+            if (std::abs(height) > 0.8) CHECK(shares[v] == Approx(height < 0).margin(0.02));
+        }
+    }
+}
+
 TEST_CASE("a muscle inside of a joint that closes turns nothing over and keeps its volume, active or not") {
     Muscle flexor = flexorOf(200);
     const TriangleMesh upper = boneAt(-205, -5), lower = boneAt(5, 205);

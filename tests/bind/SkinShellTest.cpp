@@ -93,3 +93,17 @@ TEST_CASE("where all skin has a seed there are no shells") {
     const OnTwoBones body;
     CHECK(bindShells(body.skin, body.influences, std::vector<double>(body.skin.vertices.size(), 1)).empty());
 }
+
+TEST_CASE("shells about as far from skin as the nearest one are bound with it, farther ones after it") {
+    OnTwoBones body;
+    const std::size_t bare = body.skin.vertices.size();
+    std::vector<std::size_t> shells; // beside each other, so that each is nearest to the skin
+    for (const double height : {0.5, 0.7, 0.9, 1.2}) {
+        const double x = 2.0 * static_cast<double>(shells.size());
+        shells.push_back(body.shell(x, x + 1, height, 0, 9, 9));
+    }
+    std::vector<double> seeded(body.skin.vertices.size(), infinity);
+    std::fill(seeded.begin(), seeded.begin() + static_cast<std::ptrdiff_t>(bare), 0.0);
+    const std::vector<ShellVertex> made = bindShells(body.skin, body.influences, seeded);
+    for (std::size_t k = 0; k < shells.size(); ++k) CHECK(made[shells[k]].round == (k < 3 ? 0 : 1));
+}
