@@ -15,10 +15,6 @@ double fourthPower(double x) {
     return x * x * x * x;
 }
 
-/// Least reach of smoothing, as a share of the mean edge: it only keeps what touches a bone from being
-/// infinitely firm.
-constexpr double leastReach = 0.02;
-
 /// The shares of a ring, by claims along the surface: its parts lie on other bones than those that they
 /// belong to, as a closed upper lip on the lower teeth.
 std::vector<double> claimedAround(const TriangleMesh& surface, const TriangleMesh& origin,
@@ -26,8 +22,8 @@ std::vector<double> claimedAround(const TriangleMesh& surface, const TriangleMes
     std::vector<SkinInfluence> influences;
     for (const TriangleMesh* bone : {&origin, &insertion}) {
         const MeshQuery query(*bone);
-        // The size sets what counts as near. It is limited by the muscle's, or a short muscle between long
-        // bones would count as near to both everywhere.
+        // What counts as near is a share of a bone's size, here of twice the ring's at most: a short ring
+        // between long bones would be near to both everywhere.
         influences.push_back({{}, std::min(diagonal(*bone), 2 * diagonal(surface)), {}, {}});
         for (const Vec3& v : surface.vertices) influences.back().distance.push_back(query.distance(v));
     }
@@ -40,16 +36,14 @@ std::vector<double> nearerBone(const TriangleMesh& surface, const TriangleMesh& 
     const SkinGraph graph = skinGraph(surface);
     const MeshQuery toOrigin(origin), toInsertion(insertion);
     std::vector<std::vector<double>> shares(2);
-    std::vector<double> reach; // the nearer to a bone, the firmer the vertex keeps its share
     for (const Vec3& v : surface.vertices) {
         const double here = toOrigin.distance(v), there = toInsertion.distance(v), both = here + there;
         const double a = both > 0 ? fourthPower(here / both) : 0.5;
         const double b = both > 0 ? fourthPower(there / both) : 0.5;
         shares[0].push_back(b / (a + b));
         shares[1].push_back(a / (a + b));
-        reach.push_back(std::clamp(std::min(here, there), leastReach * graph.meanEdge, graph.meanEdge));
     }
-    unfoldShares(surface, graph, reach, options, shares);
+    unfoldShares(surface, graph, graph.meanEdge, options, shares);
     return shares[1];
 }
 
@@ -59,9 +53,7 @@ std::vector<double> insertionShares(const TriangleMesh& surface, const TriangleM
                                     const TriangleMesh& insertion, MuscleForm form,
                                     std::span<const DualPose> far) {
     if (surface.empty() || origin.empty() || insertion.empty()) return {};
-    // More rounds than skin has, since all of a muscle may become stiff; but the ends of a ring keep 99 % of
-    // their bones' motion.
-    ShareOptions options{{}, {}, true, 60, 1.2, 0.99};
+    ShareOptions options{{}, {}, true, 60}; // more rounds than skin has: all of a muscle may become stiff
     for (const DualPose& motion : far) options.motions.push_back({DualPose(), motion});
     return (form == MuscleForm::Ring ? claimedAround : nearerBone)(surface, origin, insertion, options);
 }

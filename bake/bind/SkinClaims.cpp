@@ -79,23 +79,6 @@ std::vector<std::uint32_t> seedsByContrast(const SkinInfluence& influence, std::
     return seeds;
 }
 
-/// The seed of each influence that is farthest, along the skin, from the seeds of all others.
-std::vector<std::uint32_t> endsOf(const std::vector<std::uint32_t>& influence,
-                                  const std::vector<double>& nearest, const std::vector<double>& second,
-                                  std::size_t influences) {
-    std::vector<std::uint32_t> ends;
-    for (std::size_t h = 0; h < influences; ++h) {
-        double farthest = 0;
-        for (std::uint32_t v = 0; v < influence.size(); ++v)
-            if (influence[v] == h && nearest[v] == 0 && std::isfinite(second[v]) && second[v] > farthest) {
-                if (farthest == 0) ends.push_back(v);
-                farthest = second[v];
-                ends.back() = v;
-            }
-    }
-    return ends;
-}
-
 /// For each vertex the distance between the seed that claims it and the nearest seed of another influence,
 /// the unit of its certainty. So a limb without bones is claimed up to its end as firmly as the skin that it
 /// is attached to.
@@ -139,7 +122,7 @@ SkinClaims claimSkin(const TriangleMesh& skin, const SkinGraph& graph,
                      const std::vector<SkinInfluence>& influences) {
     const std::size_t count = graph.vertices();
     std::vector<double> nearest(count, infinity), second(count, infinity);
-    SkinClaims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}, {}};
+    SkinClaims claims{std::vector<std::uint32_t>(count, 0), {}, {}, {}};
     std::vector<std::uint32_t> rival(count, 0);
     std::vector<std::vector<std::uint32_t>> seeds = seedsOf(influences);
     std::vector<std::int64_t> owner(count, -1);
@@ -164,7 +147,6 @@ SkinClaims claimSkin(const TriangleMesh& skin, const SkinGraph& graph,
         }
     }
     const std::vector<double> gap = gapsOf(graph, claims.influence, nearest, second);
-    claims.ends = endsOf(claims.influence, nearest, second, influences.size());
     claims.shells = bindShells(skin, influences, nearest);
     for (std::size_t v = 0; v < count; ++v) {
         const bool ofShell = !std::isfinite(nearest[v]);
@@ -185,7 +167,7 @@ SkinClaims claimSkin(const TriangleMesh& skin, const SkinGraph& graph,
         }
         claims.size.push_back(size);
         claims.weight.push_back(graph.area[v] / (distance * distance) *
-                                std::max(claimWeight * std::pow(certainty, certaintyPower), 1e-9));
+                                (claimWeight * std::pow(certainty, certaintyPower)));
     }
     return claims;
 }

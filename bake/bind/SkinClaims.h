@@ -39,7 +39,6 @@ struct SkinClaims {
     std::vector<double> weight; ///< #V: firmness, area over squared distance times certainty, without a unit
     std::vector<double> size;   ///< #V: of the smaller of the two influences that meet here, scene units
     std::vector<ShellVertex> shells; ///< #V; empty where there are no shells
-    std::vector<std::uint32_t> ends; ///< one per influence with seeds: see ShareOptions::leastAtEnds
 };
 
 SkinClaims claimSkin(const TriangleMesh& skin, const SkinGraph& graph,

@@ -14,7 +14,9 @@ namespace {
 /// A triangle gets twice as stiff where a share changes by this much over one size of the influence, without
 /// a unit: so skin does not fold where two influences meet at a point, as at the corner of a mouth.
 constexpr double steepShare = 3;
-constexpr int steepRounds = 3; ///< of solves that see the slope of the one before
+/// Of solves that see the slope of the one before: with one, a jaw that is shut with its muscles turns skin
+/// over.
+constexpr int steepRounds = 3;
 /// A triangle that a motion would shrink below this share of its area, or flip, is made stiffer. The margin
 /// is for muscles and contacts.
 constexpr double leastArea = 0.15;
@@ -142,22 +144,16 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
         stiffen(skin, claims, shares, stiffness);
         solver.solve(stiffness, shares);
     }
-    for (int round = 0; round < options.maxRounds && stiffenFolded(skin, shares, options, stiffness);
-         ++round) {
-        std::vector<std::vector<double>> before = shares;
+    for (int round = 0; round < options.maxRounds && stiffenFolded(skin, shares, options, stiffness); ++round)
         solver.solve(stiffness, shares);
-        for (const std::uint32_t v : claims.ends)
-            if (shares[claims.influence[v]][v] < options.leastAtEnds) return before;
-    }
     return shares;
 }
 
-void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, std::span<const double> reach,
-                  const ShareOptions& options, std::vector<std::vector<double>>& shares) {
+void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,
+                  std::vector<std::vector<double>>& shares) {
     const auto rows = static_cast<Eigen::Index>(graph.vertices());
     Eigen::VectorXd mass(rows);
-    for (Eigen::Index v = 0; v < rows; ++v) // a vertex of no triangle keeps its own
-        mass[v] = graph.area[v] > 0 ? graph.area[v] / (reach[v] * reach[v]) : 1;
+    for (Eigen::Index v = 0; v < rows; ++v) mass[v] = graph.area[v] / (reach * reach);
     const std::vector<std::vector<double>> before = shares;
     std::vector<double> stiffness(skin.triangles.size(), 1), beyond;
     Eigen::SimplicialLDLT<SparseMatrix> solver;

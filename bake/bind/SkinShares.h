@@ -13,9 +13,6 @@ struct ShareOptions {
     int maxRounds = 16;      ///< at most so many further solves; before each, triangles that a motion would
                              ///< fold are made stiffer
     double stiffening = 1.2; ///< by this factor; a small one changes little of the skin around
-    /// In [0, 1]. The end of an influence is its seed that is farthest from the seeds of all others. A round
-    /// that would bring the influence's share there below this is dropped, and is the last one.
-    double leastAtEnds = 0;
 };
 
 /// Skinning weights (METHOD 6.3): #influences of #V, >= 0, sum 1 at each vertex. The nearest bone does not
@@ -26,10 +23,10 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
                                                const std::vector<SkinInfluence>& influences,
                                                const ShareOptions& options = {});
 
-/// Smooths given shares where a motion would fold the skin, and nowhere else. reach: #V, over which and more,
-/// > 0, scene units.
-void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, std::span<const double> reach,
-                  const ShareOptions& options, std::vector<std::vector<double>>& shares);
+/// Smooths given shares where a motion would fold the skin, and nowhere else, over `reach` and more, > 0,
+/// scene units.
+void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,
+                  std::vector<std::vector<double>>& shares);
 
 /// Smooths values over the skin by screened diffusion with a decay length of `reach`. firmness: #V, >= 1,
 /// weight with which a vertex keeps its own value. values: lists of #V.

@@ -28,8 +28,7 @@ public:
         parallelFor(own_[0].size(), [&](std::size_t v) { giveWay(v); });
         wanted_.pop_back();
         attachment_.frames = std::move(wanted_);
-        const std::vector<double> reach(anatomy_.skin.vertices.size(), anatomy_.length);
-        unfoldShares(anatomy_.skin, anatomy_.graph, reach, foldingMotions(), attachment_.frames);
+        unfoldShares(anatomy_.skin, anatomy_.graph, anatomy_.length, foldingMotions(), attachment_.frames);
     }
 
 private:
