@@ -19,8 +19,6 @@ constexpr double nodeSpacing = 0.8;
 constexpr double nodeReach = 1.25;
 /// A column is truncated where it is below this share of its peak, and fades out up to twice that.
 constexpr double columnCut = 3e-3;
-/// In lengths l: beyond, a column is below its cut (it falls as exp(-0.87 r / l)).
-constexpr double columnReach = 7;
 constexpr std::size_t nodesAPatch =
     48; ///< columns that are solved with one factorisation, on one patch of the skin
 

@@ -10,6 +10,10 @@ struct SkinEntry {
     float value = 0;
 };
 
+/// In lengths l: how far from a push a column reaches, and the skin deforms. Beyond, a column is below its
+/// cut (it falls as exp(-0.87 r / l)).
+constexpr double columnReach = 7;
+
 /// The answer of a skin to a push, tabulated (METHOD 6.5). The skin is an elastic sheet with stretch and
 /// bending on an elastic foundation, B = b l^2 L M^-1 L + s L + M / l^2, which never changes; what one push
 /// does is a column of its inverse, and dies away within a few lengths l. Forces and displacements are

@@ -15,8 +15,6 @@ namespace tss {
 namespace {
 
 constexpr std::uint32_t untouched = 0xffffffff;
-/// How far around vertices that may be pushed the skin deforms, in units of SkinAnatomy::length.
-constexpr double giveReach = 7;
 
 void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table) {
     const Table& t = table.table;
@@ -39,7 +37,7 @@ std::vector<std::uint32_t> addVertices(SkinRig& rig, const SkinAnatomy& anatomy,
                                        const std::vector<std::uint32_t>& pushed) {
     const std::size_t count = anatomy.skin.vertices.size();
     std::vector<double> distance(count, infinity);
-    lowerDistances(anatomy.graph, pushed, giveReach * anatomy.length, distance);
+    lowerDistances(anatomy.graph, pushed, columnReach * anatomy.length, distance);
     for (const auto* lists : {&attachment.frames, &attachment.muscles})
         for (const auto& list : *lists)
             for (std::size_t v = 0; v < list.size(); ++v)

@@ -72,9 +72,9 @@ bool SkinTurnLimit::findFactors(const SkinScene& scene) {
         const float least = leastShare * beside.area;
         if (!(beside.normal.dot(now.first.cross(now.second)) < least)) continue;
         any = true;
-        // A little less, so that rounding does not ask for it once more.
+        // Half as much again, so that neither rounding nor the triangles beside ask for it once more.
         const float part =
-            0.999f * partLeft(edgesOf(scene.carried, corners), now, beside.normal, beside.area, 1.5f * least);
+            partLeft(edgesOf(scene.carried, corners), now, beside.normal, beside.area, 1.5f * least);
         for (const int corner : corners)
             for (const auto& [node, weight] : rig_.foundation.weights[static_cast<std::size_t>(corner)])
                 if (weight != 0) factors_[node] = std::min(factors_[node], part);
