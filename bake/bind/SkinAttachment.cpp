@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -25,9 +26,6 @@ constexpr double holdFall = 0.5, holdReach = 4;
 /// Skin that touches a muscle or is inside of it at rest cannot slide along it: how much firmer it is
 /// attached than other skin, and over which distance, in those lengths, that decays.
 constexpr double touchFirmness = 300, touchFade = 0.03;
-/// Skin lies over a muscle whose nearest point is below it and to the side by at most this much per unit of
-/// depth.
-constexpr double besideOver = 0.6;
 /// Shares below this become 0, so that skin that hardly moves is not touched; others are lowered
 /// continuously.
 constexpr double leastShare = 1e-3;
@@ -113,8 +111,8 @@ TriangleMesh joined(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 }
 
 /// How firmly skin goes with a muscle, #V, 0 to 1: wholly over it, through the tissue between the two, whose
-/// thickness is that over the middle one of the vertices over the muscle; less beside it and where it is
-/// deeper. Raises the firmness of what touches it.
+/// thickness is that over the middle one of the vertices with the muscle below them; less beside it and where
+/// it is deeper. Raises the firmness of what touches it.
 std::vector<double> holdOf(const SkinAnatomy& anatomy, std::size_t m, std::vector<double>& firmness) {
     const std::size_t count = anatomy.skin.vertices.size();
     std::vector<double> depth(count, infinity), aside(count, 0);
@@ -127,8 +125,7 @@ std::vector<double> holdOf(const SkinAnatomy& anatomy, std::size_t m, std::vecto
         aside[v] = std::sqrt(std::max(way.squaredNorm() - depth[v] * depth[v], 0.0));
     });
     std::vector<double> over;
-    for (std::size_t v = 0; v < count; ++v)
-        if (std::isfinite(depth[v]) && aside[v] <= besideOver * depth[v]) over.push_back(depth[v]);
+    std::ranges::copy_if(depth, std::back_inserter(over), [](double d) { return d > 0 && std::isfinite(d); });
     const auto middle = over.begin() + static_cast<std::ptrdiff_t>(over.size() / 2);
     std::nth_element(over.begin(), middle, over.end());
     const double tissue = over.empty() ? 0 : *middle;
