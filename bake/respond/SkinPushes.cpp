@@ -10,14 +10,9 @@ namespace {
 /// Regularisation: this share of each diagonal element is added to it, so that the pushes of contradicting
 /// planes stay bounded.
 constexpr float regularisation = 0.003f;
-/// Gauss-Seidel sweeps, which find the active set, and conjugate gradient steps on it, in turn.
-constexpr int sweepsBetween = 3, stepsBetween = 8;
 /// A push may move no vertex by more than this many times the largest violation of the planes coupled with
 /// it: pushes of contradicting planes would grow without bounds.
 constexpr float mostPush = 15;
-/// A conjugate gradient step, clamped to the bounds, is halved until the energy decreases, down to this share
-/// of it.
-constexpr float leastStep = 0.1f;
 
 } // namespace
 
@@ -167,19 +162,14 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
     }
 }
 
-/// sums += factor * row r of the matrix.
-void SkinPushes::addRow(std::size_t r, float factor, std::vector<float>& sums) const {
-    sums[r] += (1 + regularisation) * self_[r] * factor;
-    float* sum = sums.data();
+/// Updates the residual for a change of one push.
+void SkinPushes::addPush(std::size_t r, float change) {
+    lack_[r] -= (1 + regularisation) * self_[r] * change;
+    float* lack = lack_.data();
     const Four* matrix = matrix_.data();
     const std::uint32_t* fours = firstColumn_.data();
     for (std::uint32_t e = rowStart_[r], end = rowStart_[r + 1]; e < end; ++e)
-        Eigen::Map<Four>(sum + fours[e]) += matrix[e] * factor;
-}
-
-/// Updates the residual for a change of one push.
-void SkinPushes::addPush(std::size_t r, float change) {
-    addRow(r, -change, lack_);
+        Eigen::Map<Four>(lack + fours[e]) -= matrix[e] * change;
 }
 
 /// One sweep of projected Gauss-Seidel. Returns the largest displacement that a change of push makes.
@@ -191,88 +181,13 @@ float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
         if (!(self_[r] > 0)) continue;             // no vertex of it can move
         const float next =
             std::clamp(planes[r].push + lack_[r] / ((1 + regularisation) * self_[r]), 0.0f, upperBound_[r]);
-        largest = std::max(largest, std::abs(next - planes[r].push) * self_[r]);
-        setPush(planes[r], r, next);
+        const float change = next - planes[r].push;
+        if (change == 0) continue;
+        largest = std::max(largest, std::abs(change) * self_[r]);
+        planes[r].push = next;
+        addPush(r, change);
     }
     return largest;
-}
-
-/// product_ = matrix * direction_.
-void SkinPushes::multiply() {
-    product_.assign(demand_.size(), 0);
-    for (std::size_t r = 0; r < direction_.size(); ++r)
-        if (direction_[r] != 0) addRow(r, direction_[r], product_);
-}
-
-/// Conjugate gradients, with the diagonal as preconditioner, on the free pushes: fills step_, the change of
-/// pushes that makes their residual vanish. Returns the number of iterations.
-int SkinPushes::findStep(std::span<const SkinPlane> planes, int steps) {
-    const std::size_t count = planes.size();
-    step_.assign(count, 0);
-    direction_.assign(count, 0);
-    residual_.assign(count, 0);
-    float size = 0;
-    for (std::size_t r = 0; r < count; ++r) {
-        if (!isFree(planes, r)) continue;
-        residual_[r] = lack_[r];
-        direction_[r] = residual_[r] / self_[r];
-        size += residual_[r] * direction_[r];
-    }
-    const float enough = 1e-8f * size;
-    int taken = 0;
-    for (; taken < steps && size > enough; ++taken) {
-        multiply();
-        float curve = 0;
-        float least =
-            0; // the curvature of the regularisation alone: less shows that cut columns made it indefinite
-        for (std::size_t r = 0; r < count; ++r) {
-            curve += direction_[r] * product_[r];
-            least += regularisation * self_[r] * direction_[r] * direction_[r];
-        }
-        if (!(curve > least)) break;
-        const float reach = size / curve;
-        float next = 0;
-        for (std::size_t r = 0; r < count; ++r) {
-            if (!isFree(planes, r)) continue;
-            step_[r] += reach * direction_[r];
-            residual_[r] -= reach * product_[r];
-            next += residual_[r] * residual_[r] / self_[r];
-        }
-        for (std::size_t r = 0; r < count; ++r)
-            if (isFree(planes, r)) direction_[r] = residual_[r] / self_[r] + next / size * direction_[r];
-        size = next;
-    }
-    return taken;
-}
-
-void SkinPushes::setPush(SkinPlane& plane, std::size_t r, float push) {
-    const float change = push - plane.push;
-    if (change == 0) return;
-    plane.push = push;
-    addPush(r, change);
-}
-
-/// Changes the pushes by as much of step_, clamped to the bounds, as decreases the energy.
-void SkinPushes::lineSearch(std::span<SkinPlane> planes) {
-    const std::size_t count = planes.size();
-    const float before = energy(planes);
-    direction_.resize(count);
-    for (std::size_t r = 0; r < count; ++r) direction_[r] = planes[r].push; // the pushes at the start
-    for (float share = 1; share > leastStep; share /= 2) {
-        for (std::size_t r = 0; r < count; ++r)
-            setPush(planes[r], r,
-                    step_[r] == 0 ? direction_[r]
-                                  : std::clamp(direction_[r] + share * step_[r], 0.0f, upperBound_[r]));
-        if (!(energy(planes) > before)) return;
-    }
-    for (std::size_t r = 0; r < count; ++r) setPush(planes[r], r, direction_[r]);
-}
-
-/// The objective that the pushes minimise, p . A p / 2 - demand . p, times 2.
-float SkinPushes::energy(std::span<const SkinPlane> planes) const {
-    float sum = 0;
-    for (std::size_t r = 0; r < planes.size(); ++r) sum -= planes[r].push * (demand_[r] + lack_[r]);
-    return sum;
 }
 
 void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps) {
@@ -281,15 +196,7 @@ void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, 
         addCouplings();
     }
     prepare(planes, base, deepest);
-    for (int done = 0; done < sweeps;) {
-        float largest = 0;
-        for (int k = 0; k < sweepsBetween && done < sweeps; ++k, ++done) largest = sweep(planes, k % 2 != 0);
-        if (largest <= settled) break;
-        // Where opposite planes push, these few steps do what would take thousands of sweeps.
-        const int steps = findStep(planes, std::min(stepsBetween, sweeps - done));
-        if (steps > 0) lineSearch(planes);
-        done += steps;
-    }
+    for (int done = 0; done < sweeps && sweep(planes, done % 2 != 0) > settled;) ++done;
 }
 
 std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places,

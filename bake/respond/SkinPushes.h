@@ -7,8 +7,8 @@ namespace tss {
 
 /// Solves for the contact forces (METHOD 6.5): pushes p >= 0 along the planes' normals such that no plane is
 /// violated once the skin has moved by the columns of the foundation times p. A linear complementarity
-/// problem, or quadratic programme with bounds, solved by projected Gauss-Seidel sweeps and conjugate
-/// gradients in turn. Buffers are kept between calls, results are not.
+/// problem, or quadratic programme with bounds, solved by projected Gauss-Seidel sweeps. Buffers are kept
+/// between calls, results are not.
 class SkinPushes {
 public:
     explicit SkinPushes(const SkinFoundation& foundation);
@@ -41,24 +41,14 @@ private:
         float weight;           ///< of the node in the plane
         std::uint32_t previous; ///< entry in nodePlanes_, or `none`
     };
-    /// Whether a push is strictly between its bounds.
-    bool isFree(std::span<const SkinPlane> planes, std::size_t r) const {
-        return planes[r].push > 0 && planes[r].push < upperBound_[r];
-    }
     void addColumns(std::span<const SkinPlane> planes);
     void addCouplings();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest);
     void addPush(std::size_t r, float change);
-    void addRow(std::size_t r, float factor, std::vector<float>& sums) const;
     Four blockAt(const std::vector<float>& values, std::uint32_t first) const {
         return Eigen::Map<const Four>(values.data() + first);
     }
-    void setPush(SkinPlane& plane, std::size_t r, float push);
     float sweep(std::span<SkinPlane> planes, bool backwards);
-    float energy(std::span<const SkinPlane> planes) const;
-    void multiply();
-    int findStep(std::span<const SkinPlane> planes, int steps);
-    void lineSearch(std::span<SkinPlane> planes);
 
     const SkinFoundation& foundation_;
     // Of the planes so far, kept by solve() from call to call until clear(). "Coupling" of two planes: by how
@@ -79,12 +69,10 @@ private:
     std::vector<std::uint32_t> firstColumn_; ///< of each block
 
     // Per plane; those read in blocks are padded to whole blocks of four.
-    std::vector<float> upperBound_;                  ///< of the push
-    std::vector<float> demand_;                      ///< violation before any push (right-hand side), padded
-    std::vector<float> lack_;                        ///< violation with the current pushes (residual), padded
-    std::array<std::vector<float>, 3> normals_;      ///< x, y and z, padded
-    std::vector<float> step_, direction_, residual_; ///< of conjugate gradients
-    std::vector<float> product_;                     ///< matrix times direction_, padded
+    std::vector<float> upperBound_;             ///< of the push
+    std::vector<float> demand_;                 ///< violation before any push (right-hand side), padded
+    std::vector<float> lack_;                   ///< violation with the current pushes (residual), padded
+    std::array<std::vector<float>, 3> normals_; ///< x, y and z, padded
 
     // Sparse accumulators over nodes and over planes.
     std::vector<float> dense_;
