@@ -1,7 +1,6 @@
 #include "bake/robot/MjcfTree.h"
 
 #include "bake/motion/TurnBetween.h"
-#include "bake/robot/Xml.h"
 
 #include <algorithm>
 #include <cctype>
@@ -41,8 +40,10 @@ public:
         }
     }
 
+    std::list<XmlFile> files;
+
 private:
-    /// Puts the content before the element; the first of it.
+    /// Puts the content behind the element; the first of it.
     XMLElement* insert(XMLElement& element) {
         const std::string name = textOf(element, "file");
         if (name.empty()) throw InputError(placeOf(file_, element), "expected an attribute file");
@@ -59,15 +60,8 @@ private:
         if (seen_.size() > mostFiles || bytes_ > mostBytesInAll)
             throw InputError(placeOf(file_, element),
                              "expected no more than 64 included files of 8 MiB together");
-        const auto other = parseXml(text, name, "");
-        XMLElement* first = nullptr;
-        tinyxml2::XMLNode* last = &element;
-        for (auto* child = other->RootElement()->FirstChildElement(); child;
-             child = child->NextSiblingElement()) {
-            last = element.Parent()->InsertAfterChild(last, child->DeepClone(element.GetDocument()));
-            if (!first) first = last->ToElement();
-        }
-        return first;
+        files.push_back({name, parseXml(text, name, "")});
+        return insertCopies(element, files.back());
     }
 
     std::string file_;
@@ -217,10 +211,12 @@ double MjcfCompiler::angle(double value) const {
     return degrees ? value * std::numbers::pi / 180 : value;
 }
 
-void includeAll(XMLElement& model, const std::string& file, const ReadOther& readOther) {
-    Includer(file, readOther).include(model);
+std::list<XmlFile> includeAll(XMLElement& model, const std::string& file, const ReadOther& readOther) {
+    Includer includer(file, readOther);
+    includer.include(model);
     if (countElements(model) > mostElementsInAll)
         throw InputError(Where{file}, "expected no more than 100000 elements with what is included");
+    return std::move(includer.files);
 }
 
 MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {

@@ -1,8 +1,9 @@
 #pragma once
 #include "bake/motion/Motion.h"
 #include "bake/robot/ReadRobot.h"
+#include "bake/robot/Xml.h"
 
-#include <tinyxml2.h>
+#include <list>
 
 namespace tss {
 
@@ -15,8 +16,9 @@ struct MjcfCompiler {
 };
 
 /// The model with all that it includes in the places where it does: each file once, 64 at most, 8 MiB
-/// together.
-void includeAll(tinyxml2::XMLElement& model, const std::string& file, const ReadOther& readOther);
+/// together. The places of what is included are asked of the files returned, which must be kept for that.
+std::list<XmlFile> includeAll(tinyxml2::XMLElement& model, const std::string& file,
+                              const ReadOther& readOther);
 
 MjcfCompiler readCompiler(const tinyxml2::XMLElement& model, const std::string& file);
 

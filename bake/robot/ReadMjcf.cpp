@@ -132,7 +132,7 @@ private:
             {"sdf", {RobotShape::Kind::Mesh, 0}}};
         const std::string type = textOf(geom, "type", "sphere"), name = textOf(geom, "name");
         const auto kind = kinds.find(type);
-        shape.where = placeOf(file_, geom).pointer;
+        shape.where = lineOf(file_, geom);
         if (ofWorld && (type == "plane" || type == "hfield"))
             return leaveOut("geoms of type " + type, name), false;
         if (kind == kinds.end() || (type == "sdf" && !geom.Attribute("mesh")))
@@ -187,7 +187,7 @@ private:
             if (kind == "frame") readGeoms(*e, place * placeOfElement(*e, file_, compiler_), link);
             if (kind == "replicate" && hasGeoms(*e)) {
                 RobotShape made;
-                made.where = placeOf(file_, *e).pointer;
+                made.where = lineOf(file_, *e);
                 made.problem = "geoms made by replicate are not read";
                 link.collision.push_back(made);
                 link.visual.push_back(made);
@@ -251,7 +251,7 @@ private:
         joint.parent = parent;
         joint.child = child;
         joint.origin = origin;
-        joint.where = placeOf(file_, body).pointer;
+        joint.where = lineOf(file_, body);
         joint.name = robot_.links[child].name + "_joint";
         std::vector<std::pair<const XMLElement*, Pose>> elements;
         collectJoints(body, Pose::Identity(), elements);
@@ -381,7 +381,7 @@ private:
 Robot readMjcf(const std::string& text, const std::string& file, const ReadOther& readOther) {
     const auto document = parseXml(text, file, "mujoco");
     XMLElement& model = *document->RootElement();
-    includeAll(model, file, readOther);
+    const auto included = includeAll(model, file, readOther); // places are asked of it
     applyDefaults(model, file);
     Robot robot;
     robot.file = file;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 
 namespace tss {
 
@@ -15,9 +16,7 @@ namespace {
 constexpr std::size_t mostBytes = 8 << 20; ///< a tree takes some 30 times that
 constexpr int mostLevels = 100, mostElements = 100000;
 
-/// What is put in from another file has no line here.
 std::string lineText(int line) {
-    if (line == 0) return "in a file that is included";
     return "line " + std::to_string(line);
 }
 
@@ -78,8 +77,35 @@ std::string reasonOf(const tinyxml2::XMLDocument& document) {
 } // namespace
 
 Where placeOf(const std::string& file, const XMLElement& element) {
+    if (const auto* original = static_cast<const XMLElement*>(element.GetUserData()))
+        return placeOf(*static_cast<const std::string*>(original->GetDocument()->GetUserData()), *original);
     const std::string name = textOf(element, "name");
     return {file, lineText(element.GetLineNum()), element.Name() + (name.empty() ? "" : " " + name)};
+}
+
+std::string lineOf(const std::string& file, const XMLElement& element) {
+    const Where at = placeOf(file, element);
+    return at.file == file ? at.pointer : at.pointer + " of " + at.file;
+}
+
+XMLElement* insertCopies(XMLElement& behind, XmlFile& from) {
+    const std::function<void(XMLElement&, XMLElement&)> remember = [&](XMLElement& copy,
+                                                                       XMLElement& original) {
+        copy.SetUserData(&original);
+        auto* inner = original.FirstChildElement();
+        for (auto* e = copy.FirstChildElement(); e;
+             e = e->NextSiblingElement(), inner = inner->NextSiblingElement())
+            remember(*e, *inner);
+    };
+    from.document->SetUserData(&from.name);
+    XMLElement* first = nullptr;
+    tinyxml2::XMLNode* last = &behind;
+    for (auto* e = from.document->RootElement()->FirstChildElement(); e; e = e->NextSiblingElement()) {
+        last = behind.Parent()->InsertAfterChild(last, e->DeepClone(behind.GetDocument()));
+        remember(*last->ToElement(), *e);
+        if (!first) first = last->ToElement();
+    }
+    return first;
 }
 
 std::unique_ptr<tinyxml2::XMLDocument> parseXml(const std::string& text, const std::string& file,

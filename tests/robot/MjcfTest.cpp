@@ -355,6 +355,31 @@ TEST_CASE("included files stand where they are named, once each") {
     CHECK(refused(modelOf("<include file='bad.xml'/>"), others).find("bad.xml: line 1") != std::string::npos);
 }
 
+TEST_CASE("what is wrong in an included file is told with its name and line") {
+    const auto others = [](const std::string& name) -> std::string {
+        if (name == "arm.xml")
+            return "<mujoco>\n<worldbody>\n<include file='parts/hand.xml'/></worldbody></mujoco>";
+        if (name == "size.xml")
+            return "<mujoco>\n<worldbody><body>\n<geom name='g' size='a'/></body></worldbody></mujoco>";
+        return "<mujoco>\n\n<body name='hand'>\n<geom type='mesh' mesh='none'/></body></mujoco>";
+    };
+    const auto says = [&](const std::string& included, const std::string& words) {
+        const std::string message = refused(modelOf("<include file='" + included + "'/>"), others);
+        INFO(message);
+        CHECK(message.find(words) != std::string::npos);
+    };
+    says("size.xml", "size.xml: line 3 (<geom g>): size: expected 1 to 3 finite numbers, found \"a\"");
+    says("arm.xml", "parts/hand.xml: line 4 (<geom>): mesh: expected");
+    const auto hfield = [](const std::string&) -> std::string {
+        return "<mujoco>\n<worldbody><body name='b'>\n<geom type='hfield'/><geom "
+               "size='1'/></body></worldbody></mujoco>";
+    };
+    CHECK(hasNote(
+        made(modelOf("<include file='field.xml'/>" + world("<body name='a'><geom size='1'/></body>")), hfield)
+            .notes,
+        "line 3 of field.xml"));
+}
+
 TEST_CASE("what an MJCF gets wrong is refused with file, line and element") {
     const auto says = [](const std::string& text, const std::string& words) {
         const std::string message = refused(text);
