@@ -44,12 +44,26 @@ fs::path packageAbove(const fs::path& robotFolder, const std::string& name) {
     }
 }
 
-/// The folder that plain paths stay within.
-fs::path homeOf(const fs::path& robotFolder) {
+/// The nearest folder at or above that has such a file; empty where none has.
+fs::path folderWith(fs::path folder, const std::string& path) {
     std::error_code none;
-    for (fs::path folder = robotFolder; folder != folder.parent_path(); folder = folder.parent_path())
-        if (fs::is_regular_file(folder / "package.xml", none)) return folder;
-    return robotFolder.parent_path();
+    while (!fs::is_regular_file(folder / path, none) && folder != folder.parent_path())
+        folder = folder.parent_path();
+    return fs::is_regular_file(folder / path, none) ? folder : fs::path();
+}
+
+/// The folders that plain paths stay within: the package and the checkout of git that the robot is in.
+std::vector<fs::path> homesOf(const fs::path& robotFolder) {
+    std::error_code none;
+    std::vector<fs::path> homes;
+    for (const char* mark : {"package.xml", ".git"}) {
+        fs::path folder = robotFolder;
+        while (!fs::exists(folder / mark, none) && folder != folder.parent_path())
+            folder = folder.parent_path();
+        if (fs::exists(folder / mark, none)) homes.push_back(folder);
+    }
+    if (homes.empty()) homes.push_back(robotFolder.parent_path());
+    return homes;
 }
 
 std::string found(const std::string& name, const fs::path& path, const std::vector<fs::path>& within,
@@ -82,10 +96,18 @@ public:
 
 private:
     std::string besideFile(const std::string& name, const std::string& path) const {
-        std::vector<fs::path> within{homeOf(folder_)};
+        std::vector<fs::path> within = homesOf(folder_);
+        fs::path file = folder_ / path;
+        std::error_code none;
+        for (const fs::path& home : within)
+            if (!fs::exists(file, none) && fs::exists(home / path, none)) file = home / path;
         for (const auto& [key, folder] : packages_)
             if (!folder.empty()) within.emplace_back(folder);
-        return found(name, folder_ / path, within, ", or in the folder of a --package NAME=DIR");
+        fs::path both = folder_; // the nearest that holds the robot and the mesh
+        while (both.has_relative_path() && !isWithin(realPath(file), both)) both = both.parent_path();
+        return found(name, file, within,
+                     ", or in the folder of a --package NAME=DIR" +
+                         (both.has_relative_path() ? ", as --package all=" + both.string() : ""));
     }
 
     std::string inPackage(const std::string& name, const std::string& rest) const {
@@ -99,10 +121,13 @@ private:
         if (given != packages_.end() && given->second.empty()) return "";
         const fs::path folder =
             given != packages_.end() ? fs::path(given->second) : packageAbove(folder_, package);
-        if (folder.empty())
+        if (folder.empty()) {
+            const fs::path perhaps = folderWith(folder_, rest.substr(slash + 1));
             throw InputError("file \"" + name + "\": no folder of a package " + package + " at or above " +
-                             folder_.string() + "; say where it is: --package " + package +
-                             "=DIR, or leave its meshes out: --package " + package + "=");
+                             folder_.string() + "; say where it is: --package " + package + "=" +
+                             (perhaps.empty() ? "DIR" : perhaps.string() + " where such a file is") +
+                             ", or leave its meshes out: --package " + package + "=");
+        }
         return found(name, folder / rest.substr(slash + 1), {folder}, " its package");
     }
 

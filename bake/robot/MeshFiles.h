@@ -14,11 +14,12 @@ Packages parsePackages(const std::vector<std::string>& texts);
 ///   upwards from
 ///                                            the file that is called NAME, holds one called NAME, or has a
 ///                                            package.xml that says so
-///   PATH, file://PATH, package://FILE        beside the file
-/// No file outside the package, outside the folder given, or, for a plain path, outside the package the file
-/// is in (its folder's parent where it is in none) is read, through links neither. Throws InputError that
-/// says where it was looked for. Empty for a package that is left out; whether there is such a file is not
-/// looked at.
+///   PATH, file://PATH, package://FILE        beside the file; where it is not there, in the package or the
+///                                            checkout of git that the file is in
+/// No file outside the package, outside the folder given, or, for a plain path, outside the package and the
+/// checkout the file is in (its folder's parent where it is in none) is read, through links neither. Throws
+/// InputError that says where it was looked for. Empty for a package that is left out; whether there is such
+/// a file is not looked at.
 FindMesh meshesOf(const std::string& file, const Packages& packages);
 
 } // namespace tss

@@ -76,6 +76,11 @@ TEST_CASE("a mesh of a package is found upwards by folder, by package.xml, or wh
     CHECK(refusal([&] {
               meshesOf(inside, {})("package://elsewhere/b.stl");
           }).find("--package elsewhere=DIR") != std::string::npos);
+    tree.write("copied/arm/meshes/a.stl");
+    CHECK(refusal([&] {
+              meshesOf(tree.write("copied/arm/urdf/a.urdf"), {})("package://elsewhere/meshes/a.stl");
+          }).find("--package elsewhere=" + (tree.root / "copied/arm").string() + " where such a file is") !=
+          std::string::npos);
     CHECK(refusal([&] { parsePackages({"nonsense"}); }).find("NAME=DIR") != std::string::npos);
     CHECK(refusal([&] { parsePackages({"a=/no/such/folder"}); }).find("no folder") != std::string::npos);
 }
@@ -131,6 +136,28 @@ TEST_CASE("plain paths stay within the package or the parent of the file's folde
     fs::create_symlink(secret, tree.root / "robot/meshes/link.stl");
     CHECK(refusal([&] { find("../meshes/link.stl"); }).find("lies outside") != std::string::npos);
     CHECK(meshesOf(urdf, parsePackages({"all=" + tree.root.string()}))("../../secret.stl") == secret);
+}
+
+TEST_CASE("plain paths stay within the checkout too, and may be those from its or the package's folder") {
+    const Tree tree;
+    const std::string urdf = tree.write("all/robots/assembly/both/both.urdf"),
+                      mesh = tree.write("all/robots/arms/a.stl");
+    CHECK(refusal([&] { meshesOf(urdf, {})("../../arms/a.stl"); })
+              .find("lies outside of " + (tree.root / "all/robots/assembly").string() +
+                    "; expected it within, or in the folder of a --package NAME=DIR, as --package all=" +
+                    (tree.root / "all/robots").string()) != std::string::npos);
+    tree.write("all/.git/HEAD");
+    CHECK(meshesOf(urdf, {})("../../arms/a.stl") == mesh);
+    CHECK(meshesOf(urdf, {})("robots/arms/a.stl") == mesh);
+    tree.write("x");
+    CHECK(refusal([&] { meshesOf(urdf, {})("../../../../x"); }).find("lies outside") != std::string::npos);
+    const std::string packed = tree.write("all/pack/urdf/arm.urdf"),
+                      own = tree.write("all/pack/meshes/b.stl");
+    tree.write("all/pack/package.xml", "<package><name>p</name></package>");
+    CHECK(meshesOf(packed, {})("meshes/b.stl") == own);
+    CHECK(meshesOf(packed, {})("../../robots/arms/a.stl") == mesh);
+    const std::string beside = tree.write("all/pack/urdf/meshes/b.stl");
+    CHECK(meshesOf(packed, {})("meshes/b.stl") == beside);
 }
 
 #ifdef OSGTSS_HAVE_MJCF
