@@ -226,7 +226,8 @@ void addVerify(CLI::App& app, Console& console) {
         "made again from the\n"
         "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
         "of each muscle by\n"
-        "itself is checked, and one that says it is certified is refused.\n" +
+        "itself is checked, and one that says it is certified is refused.\n"
+        "Exits with 0 where all hold, with 1 where one does not or is not decided.\n" +
         app.get_footer());
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
