@@ -178,6 +178,8 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     writeText(folder.path() / "config.xml", "<?xml version='1.0'?>\n<!-- <robot> -->\n<config/>\n");
     refused("config.xml -o out.tss", 1,
             "config.xml: expected the <robot> of a URDF or the <mujoco> of an MJCF, found <config>");
+    writeText(folder.path() / "part.xml", "<mujocoinclude/>");
+    refused("part.xml -o out.tss", 1, "found <mujocoinclude>, a part of one: take the file that includes it");
     writeText(folder.path() / "wide.urdf", std::string("\xFF\xFE<\0r\0o\0b\0o\0t\0/\0>\0", 18)); // UTF-16
     refused("wide.urdf -o out.tss", 1, "wide.urdf: expected text in UTF-8");
     writeText(folder.path() / "large.urdf",
