@@ -104,6 +104,14 @@ private:
         return static_cast<int>(robot_.links.size()) - 1;
     }
 
+    /// One without a place stands at the origin, without what it has below it, and no joint ties it.
+    int addPlacedLink(std::size_t entry) {
+        if (unplaced_[entry].empty()) return addLink(pathOf(entry), world_[entry].matrix);
+        leftOut_.add("left out: bodies without a place, of which neither shapes nor joints can be had",
+                     pathOf(entry) + " (" + unplaced_[entry] + ")");
+        return addLink(pathOf(entry), Eigen::Affine3d::Identity());
+    }
+
     void expectPlaced(std::size_t entry) const {
         if (!unplaced_[entry].empty()) problems_.add(entries_[entry].place, unplaced_[entry]);
     }
@@ -135,8 +143,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const int parent = entries_[i].parent;
             if (starts[i])
-                expectPlaced(i), linkOf_[i] = addLink(pathOf(i), world_[i].matrix),
-                                 fixed_.push_back(!rigid_[i]);
+                linkOf_[i] = addPlacedLink(i), fixed_.push_back(!rigid_[i]);
             else if (parent >= 0 && !isJoint(*entries_[i].prim))
                 linkOf_[i] = linkOf_[parent];
         }
@@ -144,9 +151,12 @@ private:
 
     /// Each gprim to its link; what none has becomes part of the world.
     void placeGprims() {
-        bool physics = !robot_.links.empty();
-        for (std::size_t i = 0; i < entries_.size(); ++i) physics = physics || colliders_.is(i);
-        if (!physics)
+        bool physics = !robot_.links.empty(), shapes = false;
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            physics = physics || colliders_.is(i);
+            shapes = shapes || isGprim(*entries_[i].prim);
+        }
+        if (!physics && shapes)
             leftOut_.add("no rigid bodies and no colliders: each mesh is a body of its own", robot_.name);
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Prim& prim = *entries_[i].prim;

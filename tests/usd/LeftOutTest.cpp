@@ -37,6 +37,25 @@ TEST_CASE("a joint that cannot be read is left out by name, and the rest comes i
          "physics:localRot0: expected a quaternion");
 }
 
+TEST_CASE("a body without a place costs its own shapes and joints, by name, and the rest comes in") {
+    const std::string lost = R"usda(def Xform "lost" ( prepend apiSchemas = ["PhysicsRigidBodyAPI"] ) {
+        double3 xformOp:translate = (0, nan, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Cube "c" ( prepend apiSchemas = ["PhysicsCollisionAPI"] ) {}
+    }
+    def PhysicsFixedJoint "toLost" { rel physics:body0 = </R/a>
+        rel physics:body1 = </R/lost> })usda";
+    const RobotScene made = robotScene(twoBoxes(hinge + lost));
+    REQUIRE(made.scene.joints.size() == 1);
+    CHECK(made.scene.joints[0].path == "/R/j");
+    CHECK(made.scene.pairs.size() == 1);
+    for (const Body& body : made.scene.bodies) CHECK(body.mesh.empty() == (body.path == "/R/lost"));
+    CHECK(hasNote(made.notes,
+                  "bodies without a place, of which neither shapes nor joints can be had: /R/lost "
+                  "(/R/lost.xformOp:translate: expected a finite number, found nan)"));
+    CHECK(hasNote(made.notes, "joints that cannot be read, which tie nothing: /R/toLost (/R/lost.xformOp"));
+}
+
 TEST_CASE("faces that are holes are surface, and it is said") {
     const auto square = [](const std::string& holes) {
         return robotScene("def Mesh \"m\" { uniform token subdivisionScheme = \"none\"\n" + holes +
@@ -98,4 +117,11 @@ TEST_CASE("a joint that is coupled to another moves by itself, and it is said") 
     CHECK(hasNote(robotScene(twoBoxes(coupled)).notes,
                   "couplings of joints to others (mimic); each moves by itself: /R/j"));
     CHECK_FALSE(hasNote(robotScene(twoBoxes(hinge)).notes, "mimic"));
+}
+
+TEST_CASE("a stage without shapes is refused with what it has instead, and nothing is said of meshes") {
+    CHECK_THROWS_WITH(robotScene("def Camera \"c\" {}"),
+                      Catch::Contains("found none") &&
+                          Catch::Contains("left out: prims of type Camera: /c") &&
+                          !Catch::Contains("each mesh"));
 }
