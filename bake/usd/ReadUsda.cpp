@@ -76,7 +76,9 @@ private:
             if (std::ranges::find(listOps, key) != listOps.end() && cursor_.atWord())
                 op = std::exchange(key, cursor_.word("a key", true));
             cursor_.expect('=');
-            if (key == "relocates") cursor_.refuse("relocates are not read"); // of a prim, or of a layer
+            if (key == "relocates")
+                cursor_.refuse(
+                    "relocates are not read; expected a stage without them, as usdcat --flatten writes it");
             cursor_.spend(sizeof(Value::Object::value_type) + 64);
             readKey(key, op);
         }

@@ -153,7 +153,8 @@ TEST_CASE("an arc that leads back to itself is left out by name, sublayers that 
               .find("leads back to itself") != std::string::npos);
     for (const std::string of : {"", "def \"A\" "})
         CHECK(refused({{"root.usda", head + of + "( relocates = { <a>: <b> } )"}})
-                  .find("relocates are not read") != std::string::npos);
+                  .find("relocates are not read; expected a stage without them, as usdcat --flatten") !=
+              std::string::npos);
 }
 
 TEST_CASE("references that make more of each other than fits are refused") {
