@@ -4,6 +4,8 @@
 #include "bake/base/NearestFloat.h"
 #include "bake/motion/SmallSystems.h"
 
+#include <set>
+
 namespace tss {
 
 namespace {
@@ -27,23 +29,30 @@ Eigen::Affine3d rotationAbout(int axis, double degrees) {
     return Eigen::Affine3d(Eigen::AngleAxisd(toRadians(degrees), Vec3::Unit(axis)));
 }
 
-/// rotateX, ..., rotateXYZ, ...: the axis named first acts on the point first.
-Eigen::Affine3d rotation(const PrimReader& prim, const std::string& name, const std::string& axes) {
-    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
-    if (axes.size() == 1)
-        return rotationAbout(axes[0] - 'X',
-                             prim.real(attributeOf(prim, name, {"float", "double", "half"}), 0));
-    const Vec3 degrees = prim.vector(attributeOf(prim, name, {"float3", "double3", "half3"}), Vec3::Zero());
-    for (char axis : axes) turn = rotationAbout(axis - 'X', degrees[axis - 'X']) * turn;
-    return turn;
+/// The operations of this kind that have numbers: rotateX, rotateXYZ, ..., translate, translateX, ...,
+/// scaleX. The axes that it names, XYZ where it names none; empty for others.
+std::string axesOf(const std::string& kind, const std::string& of) {
+    static const std::set<std::string> orders = {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
+    if (!kind.starts_with(of)) return "";
+    const std::string axes = kind.substr(of.size());
+    if (axes == "X" || axes == "Y" || axes == "Z") return axes;
+    if (of == "rotate") return orders.contains(axes) ? axes : "";
+    return axes.empty() ? "XYZ" : "";
 }
 
-bool isRotation(const std::string& kind) {
-    static const char* const kinds[] = {"X", "Y", "Z", "XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
-    if (!kind.starts_with("rotate")) return false;
-    for (const char* axes : kinds)
-        if (kind.substr(6) == axes) return true;
-    return false;
+/// The attribute of the numbers of an operation: one where it names one axis, else three.
+Attribute numbersOf(const PrimReader& prim, const std::string& name, const std::string& axes) {
+    return axes.size() == 1 ? attributeOf(prim, name, {"float", "double", "half"})
+                            : attributeOf(prim, name, {"float3", "double3", "half3"});
+}
+
+/// The same `otherwise` along axes that it does not name.
+Vec3 numbers(const PrimReader& prim, const std::string& name, const std::string& axes, double otherwise) {
+    Vec3 result = Vec3::Constant(otherwise);
+    const Attribute attribute = numbersOf(prim, name, axes);
+    if (axes.size() > 1) return prim.vector(attribute, result);
+    result[axes[0] - 'X'] = prim.real(attribute, otherwise);
+    return result;
 }
 
 Xform matrix(const PrimReader& prim, const std::string& name) {
@@ -65,28 +74,28 @@ Xform operation(const PrimReader& prim, const std::string& name) {
     const auto first = name.find(':');
     const std::string kind = name.substr(first + 1, name.find(':', first + 1) - first - 1);
     Xform xform;
-    if (kind == "translate")
-        xform.matrix.translation() =
-            prim.vector(attributeOf(prim, name, {"double3", "float3", "half3"}), Vec3::Zero());
-    else if (kind == "orient")
-        xform.matrix.linear() =
-            prim.rotation(attributeOf(prim, name, {"quatf", "quatd", "quath"})).toRotationMatrix();
-    else if (isRotation(kind))
-        xform.matrix = rotation(prim, name, kind.substr(6));
-    else if (kind == "transform")
-        return matrix(prim, name);
-    else if (kind == "scale") {
-        const Vec3 factors =
-            prim.vector(attributeOf(prim, name, {"float3", "double3", "half3"}), Vec3::Ones());
+    if (const auto axes = axesOf(kind, "translate"); !axes.empty()) {
+        xform.matrix.translation() = numbers(prim, name, axes, 0);
+    } else if (const auto axes = axesOf(kind, "rotate"); !axes.empty()) {
+        const Vec3 degrees = numbers(prim, name, axes, 0);
+        for (char axis : axes) // the one named first acts on the point first
+            xform.matrix = rotationAbout(axis - 'X', degrees[axis - 'X']) * xform.matrix;
+    } else if (const auto axes = axesOf(kind, "scale"); !axes.empty()) {
+        const Vec3 factors = numbers(prim, name, axes, 1);
         if ((factors.array() == 0).any())
-            prim.problem(attributeOf(prim, name, {"float3", "double3", "half3"}),
-                         "expected scales that are not 0");
+            prim.problem(numbersOf(prim, name, axes), "expected scales that are not 0");
         else
             xform.matrix.linear() = factors.asDiagonal();
         xform.rigid = factors == Vec3::Ones();
-    } else
+    } else if (kind == "orient") {
+        xform.matrix.linear() =
+            prim.rotation(attributeOf(prim, name, {"quatf", "quatd", "quath"})).toRotationMatrix();
+    } else if (kind == "transform") {
+        return matrix(prim, name);
+    } else {
         prim.problem(schema::xformOpOrder,
-                     "expected translate, orient, rotate..., scale or transform, found \"", name, "\"");
+                     "expected translate..., orient, rotate..., scale... or transform, found \"", name, "\"");
+    }
     return xform;
 }
 

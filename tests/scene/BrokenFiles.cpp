@@ -147,7 +147,7 @@ const std::vector<Broken> files = {
     {mesh, "/properties/xformOpOrder", "{\"typeName\": \"token[]\", \"default\": [\"xformOp:translate\"]}",
      "/properties/xformOpOrder/default", "expected the operation \"xformOp:translate\""},
     {mesh, "/properties/xformOpOrder", "{\"typeName\": \"token[]\", \"default\": [\"extent\"]}",
-     "/properties/xformOpOrder/default", "expected translate, orient, rotate..., scale or transform"},
+     "/properties/xformOpOrder/default", "expected translate..., orient, rotate..., scale... or transform"},
     {mesh, "/primChildren",
      "[{\"name\": \"In\", \"typeName\": \"Mesh\", \"metadata\": {\"apiSchemas\": {\"prepend\": "
      "[\"PhysicsRigidBodyAPI\"]}}}]",

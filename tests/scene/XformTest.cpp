@@ -58,6 +58,31 @@ TEST_CASE("rotateXYZ turns about X first") {
     CHECK((world(body)[0] - Vec3(0, 1, 0)).norm() < 1e-12);
 }
 
+TEST_CASE("an operation may be upon one axis alone, and be inverted") {
+    const auto along = [](const std::string& name, const std::string& type, double value) {
+        return "\"xformOp:" + name + "\": {\"typeName\": \"" + type +
+               "\", \"default\": " + std::to_string(value) + "}";
+    };
+    const auto corner = [&](const std::string& order, const std::string& operations) {
+        return world(meshUnder("", op(order, operations)))[0]; // (1, 0, 0)
+    };
+    CHECK((corner(R"("xformOp:translateX", "xformOp:translateY:pivot", "xformOp:translateZ")",
+                  along("translateX", "double", 1) + ", " + along("translateY:pivot", "float", 2) + ", " +
+                      along("translateZ", "half", 3)) -
+           Vec3(2, 2, 3))
+              .norm() < 1e-12);
+    CHECK((corner(R"("xformOp:scaleX", "!invert!xformOp:scaleX:twice", "xformOp:scaleY")",
+                  along("scaleX", "float", 3) + ", " + along("scaleX:twice", "double", 2) + ", " +
+                      along("scaleY", "float", 7)) -
+           Vec3(1.5, 0, 0))
+              .norm() < 1e-7);
+    CHECK_THROWS_WITH(corner(R"("xformOp:scaleZ")", along("scaleZ", "float", 0)),
+                      Catch::Contains("scales that are not 0"));
+    for (const char* none : {"translateXY", "rotate", "rotateXX", "scaleW"})
+        CHECK_THROWS_WITH(corner("\"xformOp:" + std::string(none) + "\"", along(none, "float", 1)),
+                          Catch::Contains("expected translate..., orient, rotate..., scale... or transform"));
+}
+
 TEST_CASE("points that a scale moves are floats, as those of files: what is hashed is what was baked") {
     const Body body =
         meshUnder("", op(R"("xformOp:scale")",
