@@ -59,10 +59,20 @@ void remark(const std::string& name, const Place& place, Problems& problems) {
         remark(name, name, knownNames(), place, problems);
 }
 
+bool hasHoles(const std::string& type, const std::string& name, const Property& property) {
+    return type == "Mesh" && name == "holeIndices" && property.defaultValue &&
+           *property.defaultValue != Value(Value::Array());
+}
+
 void remark(const std::vector<Prim>& prims, const Place& place, Problems& problems) {
     for (std::size_t i = 0; i < prims.size(); ++i) {
         const Place at = place.child(i, prims[i].name);
-        for (const auto& [name, property] : prims[i].properties) remark(name, at.property(name), problems);
+        for (const auto& [name, property] : prims[i].properties) {
+            remark(name, at.property(name), problems);
+            if (hasHoles(prims[i].typeName, name, property))
+                problems.warn(at.property(name), "not read: faces that are holes are surface too; what is "
+                                                 "proven holds, contact may be reported in them");
+        }
         remark(prims[i].children, at, problems);
     }
 }

@@ -52,7 +52,7 @@ struct Layer;
 class Problems;
 
 /// Warns of properties that begin as osgTSS's or UsdPhysics' do and are none of them, with the name that was
-/// meant where one is near: a misspelt property is else kept and does nothing.
+/// meant where one is near: a misspelt property is else kept and does nothing. So are faces that are holes.
 void remarkTypos(const Layer& layer, Problems& problems);
 
 namespace schema {

@@ -1,5 +1,5 @@
-#include "bake/scene/Schema.h"
 #include "bake/scene/ReadLayer.h"
+#include "bake/scene/Schema.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,12 +7,13 @@ using namespace tss;
 
 namespace {
 
-std::vector<InputError> remarksOn(const std::string& property) {
+std::vector<InputError> remarksOn(const std::string& property, const std::string& type = "float",
+                                  const std::string& value = "1") {
     Problems problems("");
     const Layer layer =
         parseLayer(R"({"format": "osgtss", "formatVersion": "1.0", "primChildren": [{"name": "A",
-        "properties": {")" +
-                       property + R"(": {"typeName": "float", "default": 1}}}]})",
+        "typeName": "Mesh", "properties": {")" +
+                       property + R"(": {"typeName": ")" + type + R"(", "default": )" + value + "}}}]}",
                    "");
     remarkTypos(layer, problems);
     return problems.warnings;
@@ -37,6 +38,14 @@ TEST_CASE("a misspelt property of ours or of UsdPhysics is remarked upon with th
         CHECK(remarksOn(meant).empty());
     }
     CHECK(remarksOn("tss:somethingElseAltogether").size() == 1);
+}
+
+TEST_CASE("faces that are holes are told to be surface") {
+    const auto remarks = remarksOn("holeIndices", "int[]", "[1]");
+    REQUIRE(remarks.size() == 1);
+    CHECK(remarks[0].where.path == "/A.holeIndices");
+    CHECK_THAT(remarks[0].message, Catch::Contains("faces that are holes are surface too"));
+    CHECK(remarksOn("holeIndices", "int[]", "[]").empty());
 }
 
 TEST_CASE("properties of others are no misspelt ones of ours") {
