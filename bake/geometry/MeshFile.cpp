@@ -117,6 +117,7 @@ void expectWholeGlb(const std::string& file) {
     char magic[4] = {};
     stream.read(magic, 4);
     if (!stream || std::string(magic, 4) != "glTF") return; // what it is the importer says
+    const std::uint32_t version = readNumber(stream);
     std::error_code error;
     const std::uint64_t size = fs::file_size(file, error);
     constexpr std::uint64_t header = 12, ofChunk = 8; // version and length; a chunk's length and type
@@ -126,6 +127,7 @@ void expectWholeGlb(const std::string& file) {
         if (length > left)
             throw InputError(Where{file}, "is cut short: a chunk has " + std::to_string(length) +
                                               " bytes, and " + std::to_string(left) + " are left");
+        if (version == 1) return; // which has one, and behind it numbers as they are
         at += ofChunk + length;
     }
 }
