@@ -222,11 +222,12 @@ std::list<XmlFile> includeAll(XMLElement& model, const std::string& file, const 
 MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {
     MjcfCompiler compiler;
     for (auto* e = model.FirstChildElement("compiler"); e; e = e->NextSiblingElement("compiler")) {
-        const auto expect = [&](const char* attribute, std::initializer_list<const char*> words) {
+        const auto expect = [&](const char* attribute, std::initializer_list<const char*> words,
+                                const char* hint = "") {
             const std::string text = textOf(*e, attribute);
             if (!text.empty() && std::ranges::none_of(words, [&](const char* w) { return text == w; }))
                 throw InputError(placeOf(file, *e), std::string(attribute) + ": expected " + *words.begin() +
-                                                        ", found \"" + text + "\"");
+                                                        ", found \"" + text + "\"" + hint);
             return text;
         };
         if (const std::string unit = expect("angle", {"degree", "radian"}); !unit.empty())
@@ -234,7 +235,7 @@ MjcfCompiler readCompiler(const XMLElement& model, const std::string& file) {
         if (const std::string limits = expect("autolimits", {"true", "false"}); !limits.empty())
             compiler.autoLimits = limits == "true";
         compiler.stripPath = compiler.stripPath || expect("strippath", {"true", "false"}) == "true";
-        expect("coordinate", {"local"});
+        expect("coordinate", {"local"}, "; MuJoCo up to 2.3.3 makes it so: load the model there and save it");
         compiler.meshFolder = textOf(*e, "meshdir", textOf(*e, "assetdir", compiler.meshFolder));
         if (const std::string order = textOf(*e, "eulerseq"); !order.empty()) {
             if (order.size() != 3 || order.find_first_not_of("xyzXYZ") != order.npos)
