@@ -68,7 +68,7 @@ public:
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file))) return ReadResult::FILE_NOT_HANDLED;
         const std::string source = osgDB::getNameLessExtension(file);
         osg::ref_ptr<osg::Node> root = osgDB::readRefNodeFile(source, options);
-        if (!root) return ReadResult(source + ": no plugin reads it");
+        if (!root) return ReadResult(source + ": its plugin does not read it, or there is none");
         try {
             const osgTSS::LoadOptions load(options ? options->getOptionString() : std::string());
             bake(*root, load, source);
