@@ -185,7 +185,7 @@ void PrimSites::addArc(PrimSite& site, UsdArc arc, const std::string& text) {
     const UsdLayer* layer = &from;
     std::string target = text;
     if (text.starts_with('@')) {
-        const auto end = text.find('@', 1);
+        const auto end = text.rfind('@');
         const auto file = stacks_.nameOf(from, site.spec, site.path, text.substr(1, end - 1));
         if (!file) return;
         layer = &stacks_.stackOf(*file);

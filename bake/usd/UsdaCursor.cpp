@@ -161,11 +161,13 @@ std::string UsdaCursor::asset() {
     if (peek() != '@') refuseFound("the path of a file between @");
     const bool isLong = text_.substr(at_, 3) == "@@@";
     const std::string_view quote = isLong ? "@@@" : "@";
-    const auto begin = at_ + quote.size(), end = text_.find(quote, begin);
+    const auto begin = at_ + quote.size();
+    auto end = text_.find(quote, begin);
     if (end == text_.npos) refuse("expected the end of the path, " + std::string(quote));
+    while (isLong && text_.substr(end + 3, 1) == "@") ++end; // of a path that ends so
     at_ = end + quote.size();
     std::string out(text_.substr(begin, end - begin));
-    if (out.find_first_of("\n@") != out.npos) refuse("expected the path of a file without @ on one line");
+    if (out.find('\n') != out.npos) refuse("expected the path of a file on one line");
     spend(out.size());
     return out;
 }

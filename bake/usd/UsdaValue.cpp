@@ -138,7 +138,9 @@ Value parseUsdaValue(UsdaCursor& cursor, int level) {
 Value parseUsdaValue(UsdaCursor& cursor, const std::string& typeName, int level) {
     const std::size_t line = cursor.line();
     Value value = parseUsdaValue(cursor, level);
-    const ValueType* const type = valueType(typeName);
+    // A path in @@@ may hold @, which those of scene files may not.
+    const ValueType* const type =
+        valueType(typeName.starts_with("asset") ? "string" + typeName.substr(5) : typeName);
     if (!type) return value;
     if (type->base == ValueType::Base::Bool) {
         if (const auto* flags = value.as<Numbers>()) cursor.spend(sizeof(Value) * flags->values.size());

@@ -27,6 +27,7 @@ def Xform "A" (
     float turn.timeSamples = { 24: None, 0: 1.5, }
     uint64 large = 18446744073709551615
     asset file = @a b.png@
+    asset[] icons = [@@@a@2x.png@@@, @@@at@@@@, 'b@2x.png']
     rel one = <B>
     prepend rel many = [</A/B>, <../C.p>]
     rel none = None
@@ -50,6 +51,8 @@ over "C" {}
     CHECK(a.property("m")->defaultValue->as<Numbers>()->width == 4);
     CHECK(*a.property("empty")->defaultValue == Value(Value::Array()));
     CHECK(*a.property("name")->defaultValue == Value("x\nA\""));
+    CHECK(*a.property("icons")->defaultValue ==
+          Value(Value::Array{Value("a@2x.png"), Value("at@"), Value("b@2x.png")}));
     CHECK(a.property("name")->other.at("variability") == Value("uniform"));
     CHECK(a.property("name")->other.at("custom") == Value(true));
     REQUIRE(a.property("turn")->timeSamples.size() == 2);
