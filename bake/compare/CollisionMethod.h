@@ -2,6 +2,8 @@
 #include "bake/motion/Motion.h"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,30 +74,29 @@ public:
     /// Number of hits: the loop that is timed, free of virtual calls inside.
     virtual std::size_t countHits(std::span<const PoseQuery> queries) const = 0;
 
-    /// Smallest gap, negative in contact, where the method gives one.
-    virtual std::optional<double> gap(const PoseQuery&) const { return std::nullopt; }
-
-    /// The work of hit(), where it is countable.
-    virtual std::optional<Work> work(const PoseQuery&) const { return std::nullopt; }
-
-    const Description& description() const { return description_; }
-    Description& description() { return description_; }
-
-private:
-    Description description_;
+    Description description;
+    std::function<Work(const PoseQuery&)> work; ///< of hit(); null where it is not countable
 };
 
-/// Gives a method its loop. Method has `bool hit(const PoseQuery&) const`, marked final.
-template <class Method>
-class CollisionMethodLoop : public CollisionMethod {
-public:
-    std::size_t countHits(std::span<const PoseQuery> queries) const final {
-        const Method& method = static_cast<const Method&>(*this);
-        std::size_t hits = 0;
-        for (const PoseQuery& query : queries) hits += method.hit(query) ? 1 : 0;
-        return hits;
-    }
-};
+/// The method that this function is: whether the two touch at a pose. work: see CollisionMethod.
+template <class Hit>
+std::unique_ptr<CollisionMethod> makeMethod(Description about, Hit hit,
+                                            std::function<Work(const PoseQuery&)> work = {}) {
+    struct Method final : CollisionMethod {
+        explicit Method(Hit&& hit) : hits(std::move(hit)) {}
+        bool hit(const PoseQuery& query) const override { return hits(query); }
+        std::size_t countHits(std::span<const PoseQuery> queries) const override {
+            std::size_t count = 0;
+            for (const PoseQuery& query : queries) count += hits(query) ? 1 : 0;
+            return count;
+        }
+        Hit hits;
+    };
+    auto method = std::make_unique<Method>(std::move(hit));
+    method->description = std::move(about);
+    method->work = std::move(work);
+    return method;
+}
 
 /// Work counters for a traversal: either counts, or costs nothing.
 struct CountWork {
@@ -108,5 +109,19 @@ struct CountWork {
 struct IgnoreWork {
     void sphereTest() {}
 };
+
+/// The method of a function of a pose and a counter, which is told of every sphere test.
+template <class Test>
+std::unique_ptr<CollisionMethod> makeCountedMethod(Description about, const Test& test) {
+    const auto hit = [test](const PoseQuery& query) {
+        IgnoreWork none;
+        return test(query, none);
+    };
+    return makeMethod(std::move(about), hit, [test](const PoseQuery& query) {
+        CountWork counter;
+        test(query, counter);
+        return counter.work;
+    });
+}
 
 } // namespace tss::compare

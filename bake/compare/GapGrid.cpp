@@ -51,52 +51,7 @@ double speedOf(const ComparedPair& problem, std::size_t k) {
 }
 
 template <int D>
-class GapGrid final : public CollisionMethodLoop<GapGrid<D>> {
-public:
-    GapGrid(const ComparedPair& problem, const GapOracle& oracle, int points, const StatedError& ofOracle) {
-        const Stopwatch watch;
-        std::size_t count = 1;
-        double band = 0;
-        for (int k = D; k-- > 0;) {
-            const Dof& dof = problem.motion.dofs[k];
-            const double range = dof.upper - dof.lower;
-            const int n = range > 0 ? points : 2; // a DOF that is held still has two equal layers
-            axes_[k] = {dof.lower, range > 0 ? (n - 1) / range : 0, n - 2, count};
-            count *= static_cast<std::size_t>(n);
-            // With weights 1 - t and t the two grid values of a DOF are on average 2 t (1 - t) h <= h / 2
-            // away.
-            band += 0.5 * range / (n - 1) * speedOf(problem, static_cast<std::size_t>(k));
-        }
-        values_.resize(count);
-        parallelFor(count, [&](std::size_t i) {
-            PoseQuery query{std::vector<double>(D), Pose::Identity()};
-            for (int k = 0; k < D; ++k) {
-                const std::size_t at = i / axes_[k].stride % static_cast<std::size_t>(axes_[k].last + 2);
-                query.q[k] =
-                    axes_[k].lower + (axes_[k].scale > 0 ? static_cast<double>(at) / axes_[k].scale : 0);
-            }
-            query.pose = pose(problem.motion, query.q);
-            values_[i] = static_cast<float>(oracle(query));
-        });
-        double largest = 0;
-        for (const float v : values_) largest = std::max(largest, std::abs(static_cast<double>(v)));
-        band += 1e-6 * largest; // values are floats
-        const double seconds = watch.seconds();
-        this->description() = {"gap-grid-" + std::to_string(points),
-                               "C-space grid",
-                               "gaps of the sphere model on a regular grid, " + std::to_string(points) +
-                                   " values a DOF, linear between; the stated error is the Lipschitz bound",
-                               ofOracle.widened(band, band),
-                               values_.size() * sizeof(float),
-                               seconds};
-    }
-
-    bool hit(const PoseQuery& query) const override { return value(query) <= 0; }
-    std::optional<double> gap(const PoseQuery& query) const override { return value(query); }
-    /// No sphere is tested; 2^D - 1 interpolations, one product each.
-    std::optional<Work> work(const PoseQuery&) const override { return Work{0, (1u << D) - 1 + D}; }
-
-private:
+struct Grid {
     struct Axis {
         double lower, scale;
         int last; ///< index of the last cell
@@ -107,26 +62,72 @@ private:
         std::array<float, D> t;
         std::size_t base = 0;
         for (int k = 0; k < D; ++k) {
-            const double x = (query.q[k] - axes_[k].lower) * axes_[k].scale;
-            const int cell = std::clamp(static_cast<int>(x), 0, axes_[k].last);
+            const double x = (query.q[k] - axes[k].lower) * axes[k].scale;
+            const int cell = std::clamp(static_cast<int>(x), 0, axes[k].last);
             t[k] = static_cast<float>(x - cell);
-            base += static_cast<std::size_t>(cell) * axes_[k].stride;
+            base += static_cast<std::size_t>(cell) * axes[k].stride;
         }
         return interpolate<0>(base, t);
     }
     template <int K>
     float interpolate(std::size_t at, const std::array<float, D>& t) const {
         if constexpr (K == D) {
-            return values_[at];
+            return values[at];
         } else {
             const float low = interpolate<K + 1>(at, t);
-            return low + t[K] * (interpolate<K + 1>(at + axes_[K].stride, t) - low);
+            return low + t[K] * (interpolate<K + 1>(at + axes[K].stride, t) - low);
         }
     }
 
-    std::array<Axis, D> axes_;
-    std::vector<float> values_;
+    std::array<Axis, D> axes;
+    std::vector<float> values;
 };
+
+template <int D>
+std::unique_ptr<CollisionMethod> makeGrid(const ComparedPair& problem, const GapOracle& oracle, int points,
+                                          const StatedError& ofOracle) {
+    const Stopwatch watch;
+    Grid<D> grid;
+    std::size_t count = 1;
+    double band = 0;
+    for (int k = D; k-- > 0;) {
+        const Dof& dof = problem.motion.dofs[k];
+        const double range = dof.upper - dof.lower;
+        const int n = range > 0 ? points : 2; // a DOF that is held still has two equal layers
+        grid.axes[k] = {dof.lower, range > 0 ? (n - 1) / range : 0, n - 2, count};
+        count *= static_cast<std::size_t>(n);
+        // With weights 1 - t and t the two grid values of a DOF are on average 2 t (1 - t) h <= h / 2 away.
+        band += 0.5 * range / (n - 1) * speedOf(problem, static_cast<std::size_t>(k));
+    }
+    grid.values.resize(count);
+    parallelFor(count, [&](std::size_t i) {
+        PoseQuery query{std::vector<double>(D), Pose::Identity()};
+        for (int k = 0; k < D; ++k) {
+            const auto& axis = grid.axes[k];
+            const std::size_t at = i / axis.stride % static_cast<std::size_t>(axis.last + 2);
+            query.q[k] = axis.lower + (axis.scale > 0 ? static_cast<double>(at) / axis.scale : 0);
+        }
+        query.pose = pose(problem.motion, query.q);
+        grid.values[i] = static_cast<float>(oracle(query));
+    });
+    double largest = 0;
+    for (const float v : grid.values) largest = std::max(largest, std::abs(static_cast<double>(v)));
+    band += 1e-6 * largest; // values are floats
+    const double seconds = watch.seconds();
+    Description about{"gap-grid-" + std::to_string(points),
+                      "C-space grid",
+                      "gaps of the sphere model on a regular grid, " + std::to_string(points) +
+                          " values a DOF, linear between; the stated error is the Lipschitz bound",
+                      ofOracle.widened(band, band),
+                      count * sizeof(float),
+                      seconds};
+    // No sphere is tested; 2^D - 1 interpolations, one product each.
+    return makeMethod(
+        std::move(about), [grid = std::move(grid)](const PoseQuery& query) { return grid.value(query) <= 0; },
+        [](const PoseQuery&) {
+            return Work{0, (1u << D) - 1 + D};
+        });
+}
 
 } // namespace
 
@@ -135,13 +136,13 @@ std::unique_ptr<CollisionMethod> makeGapGrid(const ComparedPair& problem, const 
     if (points < 2) throw InputError("a grid of gaps: expected at least 2 points a DOF");
     switch (problem.motion.dofCount()) {
     case 1:
-        return std::make_unique<GapGrid<1>>(problem, oracle, points, ofOracle);
+        return makeGrid<1>(problem, oracle, points, ofOracle);
     case 2:
-        return std::make_unique<GapGrid<2>>(problem, oracle, points, ofOracle);
+        return makeGrid<2>(problem, oracle, points, ofOracle);
     case 3:
-        return std::make_unique<GapGrid<3>>(problem, oracle, points, ofOracle);
+        return makeGrid<3>(problem, oracle, points, ofOracle);
     case 4:
-        return std::make_unique<GapGrid<4>>(problem, oracle, points, ofOracle);
+        return makeGrid<4>(problem, oracle, points, ofOracle);
     default:
         throw InputError("a grid of gaps: expected 1 to 4 DOFs, found " +
                          std::to_string(problem.motion.dofCount()));

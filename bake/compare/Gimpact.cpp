@@ -52,64 +52,61 @@ struct AnyContact : btManifoldResult {
     bool touched = false;
 };
 
-class Gimpact final : public CollisionMethodLoop<Gimpact> {
-public:
-    explicit Gimpact(const ComparedPair& problem) {
-        const Stopwatch watch;
-        const Eigen::AlignedBox3d box = bounds(problem.meshA);
-        centre_ = box.center();
-        scale_ = 10 / box.diagonal().norm();
-        a_ = std::make_unique<GimpactBody>(problem.meshA, centre_, scale_);
-        b_ = std::make_unique<GimpactBody>(problem.meshB, centre_, scale_);
-        dispatcher_ = std::make_unique<btCollisionDispatcher>(&configuration_);
-        btGImpactCollisionAlgorithm::registerAlgorithm(dispatcher_.get());
-        const btCollisionObjectWrapper a = a_->wrapped(), b = b_->wrapped();
-        algorithm_ = dispatcher_->findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-        const double seconds = watch.seconds();
-        // Single precision, boxes quantised to 16 bits outwards: the triangles are judged in floats.
-        const double band = 1e-5 * box.diagonal().norm();
-        description() = {
-            "bullet-gimpact",
-            "mesh tree (Bullet)",
-            "Bullet's GImpact on the triangles, single precision, every contact (it has no early out)",
-            {band, band},
-            a_->bytes() + b_->bytes(),
-            seconds};
+/// Both bodies, and what Bullet keeps between two questions about them.
+struct GimpactPair {
+    GimpactPair(const ComparedPair& problem, const Eigen::AlignedBox3d& box)
+        : centre(box.center()), scale(10 / box.diagonal().norm()), a(problem.meshA, centre, scale),
+          b(problem.meshB, centre, scale), dispatcher(&configuration) {
+        btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher);
+        const btCollisionObjectWrapper wrappedA = a.wrapped(), wrappedB = b.wrapped();
+        algorithm = dispatcher.findAlgorithm(&wrappedA, &wrappedB, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     }
-    ~Gimpact() override {
-        algorithm_->~btCollisionAlgorithm();
-        dispatcher_->freeCollisionAlgorithm(algorithm_);
+    ~GimpactPair() {
+        algorithm->~btCollisionAlgorithm();
+        dispatcher.freeCollisionAlgorithm(algorithm);
     }
 
-    bool hit(const PoseQuery& query) const override {
-        const Eigen::Matrix3d turn = query.pose.linear();
+    bool touch(const Pose& pose) {
+        const Eigen::Matrix3d turn = pose.linear();
         // x' = R x + t with x = centre + y / scale
-        const Vec3 shift = (turn * centre_ + query.pose.translation() - centre_) * scale_;
+        const Vec3 shift = (turn * centre + pose.translation() - centre) * scale;
         const Eigen::Matrix<btScalar, 3, 3> r = turn.cast<btScalar>();
         const Eigen::Matrix<btScalar, 3, 1> t = shift.cast<btScalar>();
         const btMatrix3x3 rotation(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1),
                                    r(2, 2));
-        b_->object.setWorldTransform(btTransform(rotation, btVector3(t.x(), t.y(), t.z())));
-        const btCollisionObjectWrapper a = a_->wrapped(), b = b_->wrapped();
-        AnyContact result(&a, &b);
-        algorithm_->processCollision(&a, &b, dispatchInfo_, &result);
+        b.object.setWorldTransform(btTransform(rotation, btVector3(t.x(), t.y(), t.z())));
+        const btCollisionObjectWrapper wrappedA = a.wrapped(), wrappedB = b.wrapped();
+        AnyContact result(&wrappedA, &wrappedB);
+        algorithm->processCollision(&wrappedA, &wrappedB, dispatchInfo, &result);
         return result.touched;
     }
 
-private:
-    Vec3 centre_ = Vec3::Zero();
-    double scale_ = 1;
-    std::unique_ptr<GimpactBody> a_, b_;
-    btDefaultCollisionConfiguration configuration_;
-    std::unique_ptr<btCollisionDispatcher> dispatcher_;
-    btCollisionAlgorithm* algorithm_ = nullptr;
-    btDispatcherInfo dispatchInfo_;
+    const Vec3 centre;
+    const double scale;
+    GimpactBody a, b;
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher;
+    btCollisionAlgorithm* algorithm = nullptr;
+    btDispatcherInfo dispatchInfo;
 };
 
 } // namespace
 
 std::unique_ptr<CollisionMethod> makeGimpact(const ComparedPair& problem) {
-    return std::make_unique<Gimpact>(problem);
+    const Stopwatch watch;
+    const Eigen::AlignedBox3d box = bounds(problem.meshA);
+    const auto pair = std::make_shared<GimpactPair>(problem, box);
+    const double seconds = watch.seconds();
+    // Single precision, boxes quantised to 16 bits outwards: the triangles are judged in floats.
+    const double band = 1e-5 * box.diagonal().norm();
+    return makeMethod(
+        {"bullet-gimpact",
+         "mesh tree (Bullet)",
+         "Bullet's GImpact on the triangles, single precision, every contact (it has no early out)",
+         {band, band},
+         pair->a.bytes() + pair->b.bytes(),
+         seconds},
+        [pair](const PoseQuery& query) { return pair->touch(query.pose); });
 }
 
 } // namespace tss::compare

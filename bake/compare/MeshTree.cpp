@@ -12,29 +12,6 @@ namespace tss::compare {
 
 namespace {
 
-class TreeMethod final : public CollisionMethodLoop<TreeMethod> {
-public:
-    TreeMethod(BodyTrees trees, Description about, bool nested) : trees_(std::move(trees)), nested_(nested) {
-        description() = std::move(about);
-    }
-    bool hit(const PoseQuery& query) const override {
-        IgnoreWork none;
-        return treesTouch(trees_.a, trees_.b, query.pose, none);
-    }
-    std::optional<double> gap(const PoseQuery& query) const override {
-        return nested_ ? std::optional(treesGap(trees_.a, trees_.b, query.pose)) : std::nullopt;
-    }
-    std::optional<Work> work(const PoseQuery& query) const override {
-        CountWork counter;
-        treesTouch(trees_.a, trees_.b, query.pose, counter);
-        return counter.work;
-    }
-
-private:
-    BodyTrees trees_;
-    bool nested_;
-};
-
 /// Halves the longest edge until none is longer than `longest`; triangles without an area stay as they are.
 void splitInto(const Corners& element, double longest, std::vector<Corners>& elements) {
     const auto edge = [&](int k) { return (element[(k + 1) % 3] - element[k]).norm(); };
@@ -80,8 +57,12 @@ std::string BodyTrees::leavesText() const {
     return leaves(a) + " + " + leaves(b) + " leaves";
 }
 
-std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description, bool nested) {
-    return std::make_unique<TreeMethod>(std::move(trees), std::move(description), nested);
+std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description) {
+    return makeCountedMethod(
+        std::move(description),
+        [trees = std::make_shared<const BodyTrees>(std::move(trees))](const PoseQuery& query, auto& counter) {
+            return treesTouch(trees->a, trees->b, query.pose, counter);
+        });
 }
 
 std::unique_ptr<CollisionMethod>

@@ -19,9 +19,8 @@ struct BodyTrees {
     std::string leavesText() const; ///< "12 + 34 leaves"
 };
 
-/// A method that asks two trees. nested: each ball contains those below it; only then it gives gaps.
-std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description,
-                                                bool nested = false);
+/// A method that asks two trees.
+std::unique_ptr<CollisionMethod> makeTreeMethod(BodyTrees trees, Description description);
 
 /// A method of two medial sphere trees. how: they are made, in words; remark: what else is to be said.
 std::unique_ptr<CollisionMethod>

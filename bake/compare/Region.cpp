@@ -56,79 +56,6 @@ Bins makeBins(const ComparedPair& problem, const Oracle& oracle, int bins, int s
     return result;
 }
 
-class AngularRegion final : public CollisionMethodLoop<AngularRegion> {
-public:
-    AngularRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples,
-                  std::uint64_t seed) {
-        const Stopwatch watch;
-        const Bins all = makeBins(problem, oracle, bins, samples, seed);
-        dof_ = all.dof;
-        const double step = all.width / bins;
-        for (std::size_t k = 0; k < all.bins.size(); ++k) {
-            if (all.bins[k] == Bin::Free) continue;
-            const double low = all.lower + step * static_cast<double>(k);
-            if (!stretches_.empty() && k > 0 && all.bins[k - 1] != Bin::Free)
-                stretches_.back().second = low + step;
-            else
-                stretches_.emplace_back(low, low + step);
-        }
-        const double seconds = watch.seconds();
-        description() = {"angular-region",
-                         "motion regions",
-                         "contact wherever the leading DOF (" + problem.motion.dofs[dof_].name +
-                             ") is in a slice in which a sample collided: " + std::to_string(bins) +
-                             " slices of " + std::to_string(samples) + " samples",
-                         {},
-                         stretches_.size() * sizeof(stretches_[0]),
-                         seconds};
-    }
-    bool hit(const PoseQuery& query) const override {
-        for (const auto& [low, high] : stretches_)
-            if (query.q[dof_] >= low && query.q[dof_] <= high) return true;
-        return false;
-    }
-    /// No sphere is tested, only angles are compared.
-    std::optional<Work> work(const PoseQuery&) const override { return Work{}; }
-
-private:
-    std::size_t dof_ = 0;
-    std::vector<std::pair<double, double>> stretches_;
-};
-
-class MixedRegion final : public CollisionMethodLoop<MixedRegion> {
-public:
-    MixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins, int samples, std::uint64_t seed,
-                std::shared_ptr<const CollisionMethod> inside)
-        : inside_(std::move(inside)) {
-        const Stopwatch watch;
-        bins_ = makeBins(problem, oracle, bins, samples, seed);
-        const double seconds = watch.seconds();
-        const auto share = [&](Bin bin) {
-            return std::to_string(100 * std::ranges::count(bins_.bins, bin) / bins);
-        };
-        description() = {"mixed-region-" + inside_->description().name,
-                         "motion regions",
-                         "slices of the leading DOF (" + problem.motion.dofs[bins_.dof].name +
-                             "): " + share(Bin::Free) + " % free, " + share(Bin::Contact) + " % contact, " +
-                             share(Bin::Mixed) + " % mixed, where " + inside_->description().name +
-                             " is asked",
-                         {},
-                         bins_.bins.size() + inside_->description().bytes,
-                         seconds};
-    }
-    bool hit(const PoseQuery& query) const override {
-        const Bin bin = bins_.bins[bins_.at(query.q[bins_.dof])];
-        return bin == Bin::Contact || (bin == Bin::Mixed && inside_->hit(query));
-    }
-    std::optional<Work> work(const PoseQuery& query) const override {
-        return bins_.bins[bins_.at(query.q[bins_.dof])] == Bin::Mixed ? inside_->work(query) : Work{};
-    }
-
-private:
-    Bins bins_;
-    std::shared_ptr<const CollisionMethod> inside_;
-};
-
 } // namespace
 
 double farthestMove(const ComparedPair& problem, const std::vector<double>& p, const std::vector<double>& q) {
@@ -161,13 +88,66 @@ std::size_t leadingDof(const ComparedPair& problem) {
 
 std::unique_ptr<CollisionMethod> makeAngularRegion(const ComparedPair& problem, const Oracle& oracle,
                                                    int bins, int samples, std::uint64_t seed) {
-    return std::make_unique<AngularRegion>(problem, oracle, bins, samples, seed);
+    const Stopwatch watch;
+    const Bins all = makeBins(problem, oracle, bins, samples, seed);
+    const double step = all.width / bins;
+    std::vector<std::pair<double, double>> stretches;
+    for (std::size_t k = 0; k < all.bins.size(); ++k) {
+        if (all.bins[k] == Bin::Free) continue;
+        const double low = all.lower + step * static_cast<double>(k);
+        if (!stretches.empty() && k > 0 && all.bins[k - 1] != Bin::Free)
+            stretches.back().second = low + step;
+        else
+            stretches.emplace_back(low, low + step);
+    }
+    const double seconds = watch.seconds();
+    Description about{"angular-region",
+                      "motion regions",
+                      "contact wherever the leading DOF (" + problem.motion.dofs[all.dof].name +
+                          ") is in a slice in which a sample collided: " + std::to_string(bins) +
+                          " slices of " + std::to_string(samples) + " samples",
+                      {},
+                      stretches.size() * sizeof(stretches[0]),
+                      seconds};
+    // No sphere is tested, only angles are compared.
+    return makeMethod(
+        std::move(about),
+        [stretches, dof = all.dof](const PoseQuery& query) {
+            for (const auto& [low, high] : stretches)
+                if (query.q[dof] >= low && query.q[dof] <= high) return true;
+            return false;
+        },
+        [](const PoseQuery&) { return Work{}; });
 }
 
 std::unique_ptr<CollisionMethod> makeMixedRegion(const ComparedPair& problem, const Oracle& oracle, int bins,
                                                  int samples, std::uint64_t seed,
                                                  std::shared_ptr<const CollisionMethod> inside) {
-    return std::make_unique<MixedRegion>(problem, oracle, bins, samples, seed, std::move(inside));
+    const Stopwatch watch;
+    const Bins all = makeBins(problem, oracle, bins, samples, seed);
+    const double seconds = watch.seconds();
+    const auto share = [&](Bin bin) {
+        return std::to_string(100 * std::ranges::count(all.bins, bin) / bins);
+    };
+    const std::string& name = inside->description.name;
+    Description about{"mixed-region-" + name,
+                      "motion regions",
+                      "slices of the leading DOF (" + problem.motion.dofs[all.dof].name +
+                          "): " + share(Bin::Free) + " % free, " + share(Bin::Contact) + " % contact, " +
+                          share(Bin::Mixed) + " % mixed, where " + name + " is asked",
+                      {},
+                      all.bins.size() + inside->description.bytes,
+                      seconds};
+    const auto binOf = [all](const PoseQuery& query) { return all.bins[all.at(query.q[all.dof])]; };
+    return makeMethod(
+        std::move(about),
+        [binOf, inside](const PoseQuery& query) {
+            const Bin bin = binOf(query);
+            return bin == Bin::Contact || (bin == Bin::Mixed && inside->hit(query));
+        },
+        [binOf, inside](const PoseQuery& query) {
+            return binOf(query) == Bin::Mixed ? inside->work(query) : Work{};
+        });
 }
 
 } // namespace tss::compare

@@ -28,7 +28,7 @@ std::unique_ptr<CollisionMethod> makeSphereTree(const ComparedPair& problem, Tre
                             stated,
                             trees.bytes(),
                             seconds};
-    return makeTreeMethod(std::move(trees), std::move(description), true);
+    return makeTreeMethod(std::move(trees), std::move(description));
 }
 
 } // namespace tss::compare

@@ -13,95 +13,69 @@ StatedError statedOf(const Table& table) {
     return {table.restRegion.empty() ? table.boundMiss : std::nullopt, table.boundEarly};
 }
 
-/// The paper's loop: for each sphere of A the spheres of B in its row, through indices.
-class PairList final : public CollisionMethodLoop<PairList> {
-public:
-    explicit PairList(const ComparedPair& problem) : table_(problem.table) {
-        description() = {
-            "tss-scalar", "TSS",
-            "the table's tests through indices, scalar doubles, first hit out (the paper's loop)",
-            statedOf(table_), tableBytes(table_)};
-    }
-    bool hit(const PoseQuery& query) const override {
-        const Pose inverse = query.pose.inverse(Eigen::Isometry);
-        for (std::uint32_t i = 0; i + 1 < table_.rowOffsets.size(); ++i) {
-            const Vec3 centre = inverse * table_.a[i].centre;
-            for (std::uint32_t k = table_.rowOffsets[i]; k < table_.rowOffsets[i + 1]; ++k) {
-                const Sphere& b = table_.b[table_.columns[k]];
-                const double rest = table_.restGaps.empty() ? 0 : table_.restGaps[k];
-                const double sum = std::max(0.0, table_.a[i].radius + b.radius + rest);
-                if ((b.centre - centre).squaredNorm() <= sum * sum) return true;
-            }
-        }
-        return false;
-    }
-    /// A step of the paper makes every test of the table, whatever the outcome.
-    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(table_.testCount()); }
-
-private:
-    const Table& table_;
-};
-
-class PlainTable final : public CollisionMethodLoop<PlainTable> {
-public:
-    explicit PlainTable(const ComparedPair& problem) : table_(problem.table) {
-        description() = {"tss-plain", "TSS",
-                         "the table's plain query: every test, with gap, contact point and normal",
-                         statedOf(table_), tableBytes(table_)};
-    }
-    bool hit(const PoseQuery& query) const override { return tss::query(table_, query.pose).hit(); }
-    std::optional<double> gap(const PoseQuery& query) const override {
-        return tss::query(table_, query.pose).gap;
-    }
-    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(table_.testCount()); }
-
-private:
-    const Table& table_;
-};
+/// A step of the paper makes every test of the table, whatever the outcome.
+std::function<Work(const PoseQuery&)> everyTest(const Table& table) {
+    return [&table](const PoseQuery&) { return sphereTests(table.testCount()); };
+}
 
 /// As applications run it: features of the DOF values, then the kernel that suits the table and the machine.
-class KernelTable final : public CollisionMethodLoop<KernelTable> {
-public:
-    KernelTable(const Table& table, const std::string& name, const PrepareOptions& options)
-        : prepared_(table, options) {
-        const double band = prepared_.signBand();
-        description() = {name, "TSS",
-                         std::string("the prepared table, ") + tss::name(prepared_.form()) + " kernel in " +
-                             tss::name(prepared_.precision()) +
-                             (prepared_.kernels().cells().empty()
-                                  ? ", features made from q each time"
-                                  : ", asked from q: cell, features where it leaves tests, tests"),
-                         statedOf(table).widened(0, band), // rounding misses nothing
-                         prepared_.bytes()};
-    }
-    bool hit(const PoseQuery& query) const override { return prepared_.hit(query.q.data()); }
-    std::optional<double> gap(const PoseQuery& query) const override {
-        TableFeatures features;
-        prepared_.features(query.q.data(), features);
-        return prepared_.gap(features).gap;
-    }
-    std::optional<Work> work(const PoseQuery&) const override { return sphereTests(prepared_.testCount()); }
-
-private:
-    PreparedTable prepared_;
-};
+std::unique_ptr<CollisionMethod> makeKernels(const Table& table, const std::string& name,
+                                             PreparedTable prepared) {
+    Description about{name, "TSS",
+                      std::string("the prepared table, ") + tss::name(prepared.form()) + " kernel in " +
+                          tss::name(prepared.precision()) +
+                          (prepared.kernels().cells().empty()
+                               ? ", features made from q each time"
+                               : ", asked from q: cell, features where it leaves tests, tests"),
+                      statedOf(table).widened(0, prepared.signBand()), // rounding misses nothing
+                      prepared.bytes()};
+    return makeMethod(
+        std::move(about),
+        [prepared = std::move(prepared)](const PoseQuery& query) { return prepared.hit(query.q.data()); },
+        everyTest(table));
+}
 
 } // namespace
 
 std::unique_ptr<CollisionMethod> makeKernelTable(const ComparedPair& problem) {
-    return std::make_unique<KernelTable>(problem.table, "tss", PrepareOptions{});
+    return makeKernels(problem.table, "tss", PreparedTable(problem.table));
 }
+
 std::unique_ptr<CollisionMethod> makeFloatTable(const ComparedPair& problem) {
     if (PreparedTable(problem.table).precision() == KernelPrecision::Float) return nullptr;
     PrepareOptions options;
     options.precision = KernelPrecision::Float;
-    return std::make_unique<KernelTable>(problem.table, "tss-float", options);
+    return makeKernels(problem.table, "tss-float", PreparedTable(problem.table, options));
 }
+
 std::unique_ptr<CollisionMethod> makePairList(const ComparedPair& problem) {
-    return std::make_unique<PairList>(problem);
+    const Table& table = problem.table;
+    // For each sphere of A the spheres of B in its row, through indices.
+    const auto hit = [&table](const PoseQuery& query) {
+        const Pose inverse = query.pose.inverse(Eigen::Isometry);
+        for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i) {
+            const Vec3 centre = inverse * table.a[i].centre;
+            for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
+                const Sphere& b = table.b[table.columns[k]];
+                const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
+                const double sum = std::max(0.0, table.a[i].radius + b.radius + rest);
+                if ((b.centre - centre).squaredNorm() <= sum * sum) return true;
+            }
+        }
+        return false;
+    };
+    return makeMethod({"tss-scalar", "TSS",
+                       "the table's tests through indices, scalar doubles, first hit out (the paper's loop)",
+                       statedOf(table), tableBytes(table)},
+                      hit, everyTest(table));
 }
+
 std::unique_ptr<CollisionMethod> makePlainTable(const ComparedPair& problem) {
-    return std::make_unique<PlainTable>(problem);
+    const Table& table = problem.table;
+    return makeMethod(
+        {"tss-plain", "TSS", "the table's plain query: every test, with gap, contact point and normal",
+         statedOf(table), tableBytes(table)},
+        [&table](const PoseQuery& query) { return tss::query(table, query.pose).hit(); }, everyTest(table));
 }
 
 } // namespace tss::compare

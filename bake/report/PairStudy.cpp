@@ -33,12 +33,12 @@ Sizes sizesFor(bool quick) {
 }
 
 void fillWork(Row& row, const CollisionMethod& method, std::span<const PoseQuery> queries) {
+    if (!method.work) return;
     double tests = 0, products = 0;
     for (const PoseQuery& query : queries) {
-        const auto work = method.work(query);
-        if (!work) return;
-        tests += static_cast<double>(work->tests);
-        products += static_cast<double>(work->products);
+        const Work work = method.work(query);
+        tests += static_cast<double>(work.tests);
+        products += static_cast<double>(work.products);
     }
     row.tests = tests / static_cast<double>(queries.size());
     row.products = products / static_cast<double>(queries.size());
@@ -49,16 +49,6 @@ bool onSpheres(const std::string& family) {
     return family.rfind("mesh tree", 0) != 0 && family != "octree sphere tree" &&
            family != "medial sphere tree" && family != "O'Rourke-Badler";
 }
-
-/// FCL asked with as little as possible in between, to show what the interface of the methods costs.
-class FclDirectly final : public CollisionMethodLoop<FclDirectly> {
-public:
-    explicit FclDirectly(const MeshTruth& truth) : truth_(truth) {}
-    bool hit(const PoseQuery& query) const override { return truth_.touches(query.pose); }
-
-private:
-    const MeshTruth& truth_;
-};
 
 /// What every method is judged by.
 struct Trials {
@@ -75,7 +65,7 @@ struct Trials {
 /// The row of a method, made for that model, but for its times.
 Row judged(const CollisionMethod& method, const Model& model, const Trials& trials) {
     Row row;
-    row.about = method.description();
+    row.about = method.description;
     row.method = row.about.name;
     if (onSpheres(row.about.family)) {
         row.setting = model.recipe.name;
@@ -109,8 +99,10 @@ void measureRows(PairStudy& study, const std::vector<StudiedModel>& field, const
         }
     study.timedPoses = trials.timed().size();
     report(progress, study.path + ": timing methods", 0);
-    const FclDirectly directly(truth);
-    methods.push_back(&directly);
+    // FCL asked with as little as possible in between, to show what the interface of the methods costs.
+    const auto directly =
+        makeMethod({}, [&truth](const PoseQuery& query) { return truth.touches(query.pose); });
+    methods.push_back(directly.get());
     const std::vector<Times> times = timeMethods(methods, trials.timed(), trials.sizes.timing);
     study.fclDirectly = times.back();
     methods.pop_back();

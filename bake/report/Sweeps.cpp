@@ -146,7 +146,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     for (const auto& [name, method] : methods) {
         StepSeries series{name, {}};
         for (const PoseQuery& query : queries)
-            series.tests.push_back(static_cast<double>(method->work(query)->tests));
+            series.tests.push_back(static_cast<double>(method->work(query).tests));
         study.steps.series.push_back(std::move(series));
     }
     StepSeries mixed{"TSS in the angular region only", {}};

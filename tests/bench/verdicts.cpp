@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
             100 * table.verdicts().asked(), table.verdicts().bytes(), prepared, wrong);
         for (std::size_t i = 0; i < field.size(); ++i)
             fmt::print("  {:14} {:6.2f} ns ({:.2f} to {:.2f}), {:.2f} times the table's\n",
-                       field[i]->description().name, times[i].median, times[i].low, times[i].high,
+                       field[i]->description.name, times[i].median, times[i].low, times[i].high,
                        times[i].median / times[0].median);
     }
 }

@@ -12,14 +12,9 @@ using namespace tss::reporting;
 namespace {
 
 /// Says contact for values up to one.
-class UpTo final : public CollisionMethodLoop<UpTo> {
-public:
-    explicit UpTo(double most) : most_(most) {}
-    bool hit(const PoseQuery& query) const override { return query.q[0] <= most_; }
-
-private:
-    double most_;
-};
+std::unique_ptr<CollisionMethod> upTo(double most) {
+    return makeMethod({}, [most](const PoseQuery& query) { return query.q[0] <= most; });
+}
 
 /// B slides along x out of A, which it leaves at 1: apart by q - 1, and deep by 1 - q where that is small.
 ComparedPair sliding(TriangleMesh a, TriangleMesh b) {
@@ -41,7 +36,7 @@ TEST_CASE("missed and early contact is measured by how deep and how far apart th
     REQUIRE(poses.leftOut() == 0);
     CHECK(poses.touching() == 3);
     CHECK(poses.freeWithin(0.2) == 2);
-    const ErrorFigures late = measureError(UpTo(0.9), poses, 100, 100);
+    const ErrorFigures late = measureError(*upTo(0.9), poses, 100, 100);
     CHECK(late.poses == 7);
     CHECK(late.touching == 3);
     CHECK(late.missed == 2);
@@ -49,15 +44,15 @@ TEST_CASE("missed and early contact is measured by how deep and how far apart th
     CHECK(late.deepestMiss == Approx(0.08));
     CHECK(late.meanMiss == Approx(0.065));
     CHECK_FALSE(late.sampled);
-    const ErrorFigures early = measureError(UpTo(1.2), poses, 100, 100);
+    const ErrorFigures early = measureError(*upTo(1.2), poses, 100, 100);
     CHECK(early.missed == 0);
     CHECK(early.early == 2);
     CHECK(early.farthestEarly == Approx(0.15));
     CHECK(early.meanEarly == Approx(0.125));
-    const ErrorFigures some = measureError(UpTo(0.9), poses, 1, 100);
+    const ErrorFigures some = measureError(*upTo(0.9), poses, 1, 100);
     CHECK(some.poses == 1);
     CHECK(some.meanMiss == Approx(0.05));
-    CHECK(measureError(UpTo(0.9), poses, 100, 1).sampled);
+    CHECK(measureError(*upTo(0.9), poses, 100, 1).sampled);
 }
 
 TEST_CASE("first contact is off by what a method is late or early on the way to it") {
@@ -69,7 +64,7 @@ TEST_CASE("first contact is off by what a method is late or early on the way to 
     CHECK(motions[0].contact == Approx(0.8).epsilon(1e-6));
     CHECK(motions[1].contact == Approx(0.8).epsilon(1e-6));
     CHECK(closingMotions(problem, truth, poses, 1, 7).size() == 1);
-    const FirstContact late = measureFirstContact(problem, UpTo(0.9), motions, 7);
+    const FirstContact late = measureFirstContact(problem, *upTo(0.9), motions, 7);
     CHECK(late.motions == 2);
     CHECK(late.never == 0);
     CHECK(late.worstAngle == Approx(0.1).epsilon(1e-5)); // of a slide: a length
@@ -77,10 +72,10 @@ TEST_CASE("first contact is off by what a method is late or early on the way to 
     CHECK(late.worstLength == Approx(0.1).epsilon(1e-5));
     CHECK(late.latest == Approx(0.1).epsilon(1e-5));
     CHECK(late.earliest == 0);
-    const FirstContact early = measureFirstContact(problem, UpTo(1.2), motions, 7);
+    const FirstContact early = measureFirstContact(problem, *upTo(1.2), motions, 7);
     CHECK(early.earliest == Approx(0.2).epsilon(1e-5));
     CHECK(early.latest == 0);
-    const FirstContact half = measureFirstContact(problem, UpTo(0.6), motions, 7);
+    const FirstContact half = measureFirstContact(problem, *upTo(0.6), motions, 7);
     CHECK(half.never == 1); // the second way ends before that
     CHECK(half.meanAngle == Approx(0.4).epsilon(1e-5));
 }
