@@ -88,10 +88,6 @@ Columns<Row> methodColumns(const PairStudy& study) {
         {"nearContact/early", "nearEarly", "", [](R r) { return r.near.early; }},
         {"", "farthestEarlyMm", "farthest early, mm", [mm](R r) { return mm * r.farthestEarly(); },
          [mm](R r) { return r.uniform.early + r.near.early ? number(mm * r.farthestEarly()) : ""; }},
-    };
-    addFigures(columns, "uniform", &Row::uniform, mm);
-    addFigures(columns, "nearContact", &Row::near, mm);
-    const Columns<Row> more{
         {"statedMissMm", "statedMissMm", "promised: miss, mm",
          [mm](R r) { return known(r.about.stated.miss, mm); }},
         {"statedEarlyMm", "statedEarlyMm", "promised: early, mm",
@@ -113,7 +109,8 @@ Columns<Row> methodColumns(const PairStudy& study) {
          [](R r) { return bytesText(r.about.bytes); }},
         {"times/buildSeconds", "buildSeconds", "built in, s", [](R r) { return r.about.buildSeconds; }},
     };
-    columns.insert(columns.end(), more.begin(), more.end());
+    addFigures(columns, "uniform", &Row::uniform, mm);
+    addFigures(columns, "nearContact", &Row::near, mm);
     return columns;
 }
 

@@ -1,8 +1,18 @@
 #pragma once
 #include "bake/base/Words.h"
-#include "bake/report/Plots.h"
+#include "bake/report/SkinStudy.h"
+#include "bake/report/Study.h"
 
 namespace tss::reporting {
+
+/// A plot that was drawn: its file inside the report's folder and what it shows.
+struct Plot {
+    std::string file, caption;
+};
+
+/// Errors are drawn on a logarithmic axis: smaller ones of a pair's methods, 0 among them, count as this,
+/// millimetres.
+constexpr double leastErrorDrawn = 1e-4;
 
 /// The k-th of twelve colours that are told apart on white.
 const char* colour(std::size_t k);
@@ -23,5 +33,15 @@ public:
 private:
     std::string folder_, stem_;
 };
+
+/// Draws the plots of a pair as SVG into folder/plots by gnuplot, data and scripts beside them, so that
+/// anyone can draw them again. stem: what their names begin with. Where gnuplot cannot be run, no plot is in
+/// the list, and `problem` says why.
+std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, const std::string& stem,
+                            std::string& problem);
+
+/// The same for a skin.
+std::vector<Plot> drawPlots(const SkinStudy& study, const std::string& folder, const std::string& stem,
+                            std::string& problem);
 
 } // namespace tss::reporting

@@ -3,7 +3,7 @@
 #include "bake/compare/Methods.h"
 #include "bake/report/Model.h"
 
-#include <span>
+#include <string_view>
 
 namespace tss::reporting {
 
@@ -25,8 +25,8 @@ enum class MethodScope {
     Table,   ///< the table alone
 };
 
-/// The names of all methods, for `only` below.
-std::span<const char* const> methodNames();
+/// The names of all methods, for `only` below, with a blank between.
+std::string_view methodNames();
 
 /// Makes the methods for a model. quick: smaller settings of those that take long to build. only: parts of
 /// names or families wanted, empty: all. seed: of the sampled ones.

@@ -1,9 +1,7 @@
-#include "bake/report/PairStudy.h"
-
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/motion/RandomPoses.h"
-#include "bake/report/StudiedModels.h"
+#include "bake/report/Study.h"
 
 #include <fmt/format.h>
 
@@ -141,16 +139,13 @@ PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptio
     study.trianglesA = a.triangles.size();
     study.trianglesB = b.triangles.size();
 
-    StudiedModels models(study, scene, pair, options.quick, progress);
-    const Model& model = models.addTolerances(a, b);
-    if (model.proof || model.problem.table.testCount() == 0) {
+    auto [base, field] = studiedModels(study, scene, pair, a, b, options.quick, progress);
+    const Model& model = *base;
+    if (field.empty()) {
         study.never = neverText(scene, pair, model);
         study.seconds = watch.seconds();
         return study;
     }
-    models.addEpsilons();
-    models.addOtherRecipes();
-    std::vector<StudiedModel> field = models.takeTested();
 
     report(progress, study.path + ": poses", 0);
     const MeshTruth truth(a, b);

@@ -198,14 +198,13 @@ std::string countTable(const PairStudy& study, bool besidePaper) {
         return 100 * static_cast<double>(part) /
                static_cast<double>(std::max<std::size_t>(1, steps.leading.size()));
     };
-    text += fmt::format(
-        "Steps in the {} of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by the "
-        "spheres of {}{}.{}\n",
-        regionName(study), shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
-        shareOf(static_cast<std::size_t>(std::ranges::count(steps.inRegion, char{1}))), ours.name,
-        paper(" (the paper: 22 %)"),
-        paper(" The pairs and their limits are not the same: the counts say of what size such tables are, "
-              "not which method is better."));
+    text += fmt::format("Steps in the {} of collision: {:.0f} % of {} along {} by the meshes, {:.0f} % by "
+                        "the spheres of {}{}.{}\n",
+                        regionName(study), shareOf(steps.inMeshRegion), steps.leading.size(), steps.motion,
+                        shareOf(static_cast<std::size_t>(std::ranges::count(steps.inRegion, char{1}))),
+                        ours.name, paper(" (the paper: 22 %)"),
+                        paper(" The pairs and their limits are not the same: the counts say of what size "
+                              "such tables are, not which method is better."));
     return text;
 }
 
@@ -268,17 +267,13 @@ std::string errorSection(const PairStudy& study, const std::vector<Plot>& plots)
            methodTable(study) +
            fmt::format(
                "\nMissed: poses where the meshes touch and the method says free; how deep: the deepest "
-               "vertex "
-               "of one mesh inside the other, 0 where only edges cross. Early: free poses where it says "
-               "contact; how far: the distance of the meshes. Promised: what holds for every pose within the "
-               "limits, – where nothing is promised. First contact: along straight ways from a free to a "
-               "touching pose, how far the farthest point of the moving body is at worst from where the "
-               "meshes "
-               "first touch{}. Tests: of two spheres, a query, 4 products each as the paper counts; a table "
-               "is "
-               "counted with all of its tests, of which its kernels leave out what cannot matter at the "
-               "pose; "
-               "the others stop at the first hit.\n\n",
+               "vertex of one mesh inside the other, 0 where only edges cross. Early: free poses where it "
+               "says contact; how far: the distance of the meshes. Promised: what holds for every pose "
+               "within the limits, – where nothing is promised. First contact: along straight ways from a "
+               "free to a touching pose, how far the farthest point of the moving body is at worst from "
+               "where the meshes first touch{}. Tests: of two spheres, a query, 4 products each as the paper "
+               "counts; a table is counted with all of its tests, of which its kernels leave out what cannot "
+               "matter at the pose; the others stop at the first hit.\n\n",
                study.leadingUnit == "degrees"
                    ? fmt::format(", and the angle of {} in between", study.leadingDof)
                    : "");
@@ -298,14 +293,13 @@ std::string motionSection(const PairStudy& study, const std::vector<Plot>& plots
         "\n### Along a motion\n\n" + pictureText(plots, "steps") + pictureText(plots, "region");
     for (const auto& [region, whose] : {std::pair(&study.region.meshes, std::string("meshes")),
                                         std::pair(&study.region.spheres, "spheres of " + study.base.name)})
-        text +=
-            region->upper > region->lower
-                ? fmt::format("The {} of collision of the {} is {:.3g} to {:.3g} {} of {}; {:.3g} % of the "
-                              "poses in it collide.\n",
-                              regionName(study), whose, region->lower, region->upper, study.leadingUnit,
-                              study.leadingDof, 100 * region->meanShare())
-                : fmt::format("There is no {} of collision of the {}: nothing collided.\n", regionName(study),
-                              whose);
+        text += region->upper > region->lower
+                    ? fmt::format("The {} of collision of the {} is {:.3g} to {:.3g} {} of {}; {:.3g} % of "
+                                  "the poses in it collide.\n",
+                                  regionName(study), whose, region->lower, region->upper, study.leadingUnit,
+                                  study.leadingDof, 100 * region->meanShare())
+                    : fmt::format("There is no {} of collision of the {}: nothing collided.\n",
+                                  regionName(study), whose);
     return text + "\n";
 }
 

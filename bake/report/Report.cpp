@@ -30,15 +30,9 @@ void checkPaths(const SceneModel& scene, const ReportOptions& options, const std
 void checkMethods(const std::vector<std::string>& wanted) {
     for (const std::string& part : wanted) {
         if (part.empty()) throw InputError("--methods: expected parts of names, found an empty one");
-        std::string all;
-        bool found = false;
-        for (const std::string name : methodNames()) {
-            found = found || name.find(part) != std::string::npos;
-            all.append(" ").append(name);
-        }
-        if (!found)
-            throw InputError(
-                fmt::format("--methods: no method has \"{}\" in its name; expected parts of{}", part, all));
+        if (part.find(' ') != part.npos || methodNames().find(part) == part.npos)
+            throw InputError(fmt::format("--methods: no method has \"{}\" in its name; expected parts of {}",
+                                         part, methodNames()));
     }
 }
 
@@ -78,7 +72,7 @@ Report makeReport(const SceneModel& scene, const std::string& sceneFile, const s
         result.skinPlots.push_back(drawPlots(study, folder, stemOf(study.path, alone), result.plotProblem));
     result.seconds = watch.seconds();
     writeFileAtomically(folder + "/report.csv", csvOf(result));
-    writeFileAtomically(folder + "/report.json", jsonOf(result));
+    writeFileAtomically(folder + "/report.json", jsonText(result));
     writeFileAtomically(folder + "/report.md", markdownOf(result));
     writeFileAtomically(folder + "/index.html", pageOf(result));
     return result;

@@ -1,7 +1,7 @@
 #pragma once
 #include "bake/compare/Machine.h"
+#include "bake/report/Drawing.h"
 #include "bake/report/Picture.h"
-#include "bake/report/Plots.h"
 #include "bake/report/SkinStudy.h"
 #include "bake/report/Study.h"
 
@@ -27,9 +27,10 @@ struct Report {
 Report makeReport(const SceneModel& scene, const std::string& sceneFile, const std::string& folder,
                   const ReportOptions& options, const Progress& progress = {});
 
+/// report.md, report.csv, report.json.
 std::string markdownOf(const Report& report);
 std::string csvOf(const Report& report);
-std::string jsonOf(const Report& report);
+std::string jsonText(const Report& report);
 
 /// The report as a page of its own, index.html: one file that fetches nothing, from the data of report.json
 /// and pictures of the pairs.

@@ -22,17 +22,14 @@ void drawMethods(Drawing& drawing, const SkinStudy& study) {
     }
     drawing.draw(
         "pareto", data,
-        fmt::format(
-            "set logscale xy\nset xlabel \"time a step, µs (median)\"\nset ylabel \"worst error, mm (bottom: "
-            "none)\"\nset format y \"%g\"\nset title \"Which skin spheres touch: error against run "
-            "time\"\nset offsets graph 0.1, graph "
-            "0.1, graph 0.3, graph 0.3\nplot {}, NaN with points pt 6 lw 2 lc rgb \"#444444\" title "
-            "\"hollow: misses contacts\"\n",
-            series),
-        fmt::format(
-            "Worst error against the {}s' surfaces (deepest contact missed or farthest early contact) "
-            "against the time of a step.",
-            study.muscles > 0 && study.bones > 0 ? "part" : study.partName()),
+        fmt::format("set logscale xy\nset xlabel \"time a step, µs (median)\"\nset ylabel \"worst error, mm "
+                    "(bottom: none)\"\nset format y \"%g\"\nset title \"Which skin spheres touch: error "
+                    "against run time\"\nset offsets graph 0.1, graph 0.1, graph 0.3, graph 0.3\nplot {}, "
+                    "NaN with points pt 6 lw 2 lc rgb \"#444444\" title \"hollow: misses contacts\"\n",
+                    series),
+        fmt::format("Worst error against the {}s' surfaces (deepest contact missed or farthest early "
+                    "contact) against the time of a step.",
+                    study.muscles > 0 && study.bones > 0 ? "part" : study.partName()),
         900, 480);
 }
 
@@ -71,17 +68,16 @@ void drawAnswers(Drawing& drawing, const SkinStudy& study) {
     }
     drawing.draw(
         "answer", data[0] + "\n\n" + data[1],
-        fmt::format(
-            "set logscale xy\nset xlabel \"time an update, µs (median)\"\nset ylabel \"mm\"\n"
-            "set title \"What is left of overlap against the time of an update (numbers: sweeps)\"\n"
-            "set offsets graph 0.1, graph 0.1, graph 0.15, graph 0.15\n{}plot FILE index 0 using 1:2 with "
-            "linespoints lw 2 pt 7 lc rgb \"{}\" title \"deepest left\", FILE index 0 using 1:3 with "
-            "linespoints lw 2 dt 2 pt 6 lc rgb \"{}\" title \"farthest from converged\", FILE index 1 using "
-            "1:2 with points pt 5 ps 1.3 lc rgb \"{}\" title \"deepest left, the paper's way\", {} with "
-            "lines dt 3 lw 2 lc rgb \"#444444\" title {}\n",
-            labels, colour(0), colour(1), colour(2),
-            std::max(drawnAsNone, study.millimetres * study.motion.untouched),
-            inQuotes(whereNothingPushes(study))),
+        fmt::format("set logscale xy\nset xlabel \"time an update, µs (median)\"\nset ylabel \"mm\"\n"
+                    "set title \"What is left of overlap against the time of an update (numbers: sweeps)\"\n"
+                    "set offsets graph 0.1, graph 0.1, graph 0.15, graph 0.15\n{}plot FILE index 0 using 1:2 "
+                    "with linespoints lw 2 pt 7 lc rgb \"{}\" title \"deepest left\", FILE index 0 using 1:3 "
+                    "with linespoints lw 2 dt 2 pt 6 lc rgb \"{}\" title \"farthest from converged\", FILE "
+                    "index 1 using 1:2 with points pt 5 ps 1.3 lc rgb \"{}\" title \"deepest left, the "
+                    "paper's way\", {} with lines dt 3 lw 2 lc rgb \"#444444\" title {}\n",
+                    labels, colour(0), colour(1), colour(2),
+                    std::max(drawnAsNone, study.millimetres * study.motion.untouched),
+                    inQuotes(whereNothingPushes(study))),
         "Residual depth of the skin in what is below it, and distance to the converged solve, against the "
         "time of an update, for several numbers of sweeps.",
         1000, 520);

@@ -26,8 +26,8 @@ std::string countTable(const SkinStudy& study, bool besidePaper) {
     const auto withEllipsoids = [&](std::size_t spheres) {
         return study.productsEllipsoid * static_cast<double>(spheres * study.below());
     };
-    return text + fmt::format("| products a step, the same skin spheres against one bent ellipsoid a {} "
-                              "|{} {:.0f} ({} × {:.0f}) | {:.0f} |\n",
+    return text + fmt::format("| products a step, the same skin spheres against one bent ellipsoid a {} |{} "
+                              "{:.0f} ({} × {:.0f}) | {:.0f} |\n",
                               study.partName(), paper(" 2870 (70 × 41) |"), withEllipsoids(study.usedSkin),
                               study.usedSkin * study.below(), study.productsEllipsoid,
                               withEllipsoids(study.carriedSkin));
@@ -42,18 +42,17 @@ std::string answerTable(const SkinStudy& study) {
 std::string touchText(const SkinStudy& study, const std::vector<Plot>& plots) {
     const std::string part = study.partName();
     const bool contracts = study.activations > 1;
-    std::string text =
-        fmt::format("\n### Which skin spheres touch a {0}\n\n"
-                    "The paper's question, {1}: which of the skin's spheres, one a vertex "
-                    "at its rest place with a radius of {2} mm, touch a {0}? The truth is the distance "
-                    "of the vertex to the {0}'s surface: within the radius at {3} of {4} {5}. "
-                    "The spheres stand in for the surface and stick out of it, so that "
-                    "sphere methods say so somewhat early; all over the same spheres agree.\n\n",
-                    part,
-                    contracts ? fmt::format("at {} activations", study.activations)
-                              : "once, at rest, for nothing below the skin contracts",
-                    number(study.thickness * study.millimetres), study.touching, study.judged,
-                    contracts ? "vertices and activations" : "vertices");
+    std::string text = fmt::format(
+        "\n### Which skin spheres touch a {0}\n\n"
+        "The paper's question, {1}: which of the skin's spheres, one a vertex at its rest place with a "
+        "radius of {2} mm, touch a {0}? The truth is the distance of the vertex to the {0}'s surface: within "
+        "the radius at {3} of {4} {5}. The spheres stand in for the surface and stick out of it, so that "
+        "sphere methods say so somewhat early; all over the same spheres agree.\n\n",
+        part,
+        contracts ? fmt::format("at {} activations", study.activations)
+                  : "once, at rest, for nothing below the skin contracts",
+        number(study.thickness * study.millimetres), study.touching, study.judged,
+        contracts ? "vertices and activations" : "vertices");
     text += pictureText(plots, "pareto") + markdownTable(methodColumns(study), study.methods) + "\n" +
             pictureText(plots, "steps");
     for (const SkinMethod& m : study.methods) text += fmt::format("- **{}**: {}.\n", m.name, m.about);
@@ -66,21 +65,18 @@ std::string overlapText(const SkinStudy& study) {
     const double mm = study.millimetres;
     const std::string part = study.partName();
     if (motion.untouched > 0)
-        return fmt::format("Deepest left: how much deeper than at rest a skin vertex is in a {}; it would be "
-                           "{} mm if {}, and is {} mm in the converged solve, the same problem solved until "
-                           "nothing moves.\n\n",
-                           part, number(motion.untouched * mm),
-                           motion.bones ? "the skin were only carried and nothing pushed it"
-                                        : "the skin stayed where it is",
-                           number(motion.converged * mm));
-    return motion.bones
-               ? fmt::format(
-                     "In this motion the skin comes no deeper into a {} than it is at rest, even if it "
-                     "is only carried: there is no overlap to resolve.\n\n",
-                     part)
-               : "In this motion no muscle comes deeper into the skin than it is at rest, even if the skin "
-                 "stayed where it is: there is no overlap to resolve, the muscles only carry the skin "
-                 "along.\n\n";
+        return fmt::format(
+            "Deepest left: how much deeper than at rest a skin vertex is in a {}; it would be {} mm if {}, "
+            "and is {} mm in the converged solve, the same problem solved until nothing moves.\n\n",
+            part, number(motion.untouched * mm),
+            motion.bones ? "the skin were only carried and nothing pushed it" : "the skin stayed where it is",
+            number(motion.converged * mm));
+    return motion.bones ? fmt::format("In this motion the skin comes no deeper into a {} than it is at rest, "
+                                      "even if it is only carried: there is no overlap to resolve.\n\n",
+                                      part)
+                        : "In this motion no muscle comes deeper into the skin than it is at rest, even if "
+                          "the skin stayed where it is: there is no overlap to resolve, the muscles only "
+                          "carry the skin along.\n\n";
 }
 
 } // namespace

@@ -5,10 +5,6 @@
 
 namespace tss::reporting {
 
-double Row::worst() const {
-    return std::max(deepestMiss(), farthestEarly());
-}
-
 double unitsPer(const Dof& dof) {
     return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
 }
@@ -34,11 +30,6 @@ std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::fun
     for (const Row* row : sorted)
         if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
     return front;
-}
-
-double Row::wrong() const {
-    return static_cast<double>(uniform.missed + uniform.early) /
-           static_cast<double>(std::max<std::size_t>(1, uniform.poses));
 }
 
 } // namespace tss::reporting

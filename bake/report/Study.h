@@ -33,8 +33,13 @@ struct Row {
 
     double deepestMiss() const { return std::max(uniform.deepestMiss, near.deepestMiss); }
     double farthestEarly() const { return std::max(uniform.farthestEarly, near.farthestEarly); }
-    double worst() const; ///< scene units: the deepest miss or the farthest early contact, whichever is more
-    double wrong() const; ///< share of the uniform poses with a wrong verdict
+    /// Scene units: the deepest miss or the farthest early contact, whichever is more.
+    double worst() const { return std::max(deepestMiss(), farthestEarly()); }
+    /// Share of the uniform poses with a wrong verdict.
+    double wrong() const {
+        return static_cast<double>(uniform.missed + uniform.early) /
+               static_cast<double>(std::max<std::size_t>(1, uniform.poses));
+    }
     std::size_t misses() const { return uniform.missed + near.missed; }
     /// Whether it was judged at some of the poses only: its worst error does not compare with those of
     /// others.
@@ -128,5 +133,37 @@ std::string unitOf(const Dof& dof, double metersPerUnit);
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress);
+
+// Parts of studyPair(), each filling its own figures of the study.
+
+/// Tests a step along a motion, and the angular region of collision.
+void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, const Model& model,
+                const compare::MeshTruth& truth, const ReportOptions& options, int steps);
+
+/// What tables from a sampled search miss of what the same spheres collide at.
+void studySampling(PairStudy& study, const Model& model, const ReportOptions& options);
+
+/// That the two never meet, in words, with the distance that `tss bake` proves and stores. model: one without
+/// a test, made from the pair.
+std::string neverText(const SceneModel& scene, const Pair& pair, const Model& model);
+
+/// What a reader of the figures has to know of this pair, a sentence each: where the poses tell little, and
+/// what has no row.
+std::vector<std::string> notesOf(const PairStudy& study);
+
+/// A model of the pair under study, with the methods that were made for it.
+struct StudiedModel {
+    std::shared_ptr<const Model> model;
+    MethodScope scope;
+    MethodSet methods{};
+};
+
+/// The base model, what `tss bake` makes of these meshes, but for contact at rest, which counts here as it
+/// does to the meshes; and all that the report's rows stand on, the base among them: finer and coarser
+/// spheres, other epsilons over the same spheres, what the paper does, as far as their tables have tests.
+/// None where the base's has none. Their figures go into the study. a, b: the two meshes, cleaned.
+std::pair<std::shared_ptr<const Model>, std::vector<StudiedModel>>
+studiedModels(PairStudy& study, const SceneModel& scene, const Pair& pair, const TriangleMesh& a,
+              const TriangleMesh& b, bool quick, const Progress& progress);
 
 } // namespace tss::reporting

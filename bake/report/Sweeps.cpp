@@ -1,7 +1,6 @@
-#include "bake/report/PairStudy.h"
-
 #include "bake/base/Parallel.h"
 #include "bake/motion/RandomPoses.h"
+#include "bake/report/Study.h"
 
 #include <algorithm>
 #include <cmath>

@@ -67,20 +67,15 @@ std::string markdownOf(const Report& report) {
         report.scene, report.scene, optionsText(report.options), report.options.seed, report.seconds,
         machine.processor, machine.cores, machine.compiler, machine.build, machine.vectors,
         machine.libraries);
-    text +=
-        report.pairs.empty()
-            ? "Times are medians on one thread, and this machine's. Error figures are the same in every "
-              "run.\n\n"
-            : "All methods answer the same question about the same poses in one process: does the moving "
-              "body "
-              "touch the other? They take turns on one thread after a warm-up; times are medians over the "
-              "rounds, "
-              "with the tenth and ninetieth percentile. Each query is given its DOF values and its pose, "
-              "made "
-              "beforehand, and a method starts from whichever of them it needs. The truth is the meshes' own "
-              "(FCL, "
-              "exact triangle tests). Error figures are the same in every run with this seed; times are this "
-              "machine's.\n\n";
+    text += report.pairs.empty()
+                ? "Times are medians on one thread, and this machine's. Error figures are the same in every "
+                  "run.\n\n"
+                : "All methods answer the same question about the same poses in one process: does the moving "
+                  "body touch the other? They take turns on one thread after a warm-up; times are medians "
+                  "over the rounds, with the tenth and ninetieth percentile. Each query is given its DOF "
+                  "values and its pose, made beforehand, and a method starts from whichever of them it "
+                  "needs. The truth is the meshes' own (FCL, exact triangle tests). Error figures are the "
+                  "same in every run with this seed; times are this machine's.\n\n";
     if (!report.plotProblem.empty()) text += report.plotProblem + "\n\n";
     for (std::size_t k = 0; k < report.pairs.size(); ++k)
         text += pairText(report.pairs[k], report.pairPlots[k], report.options.besidePaper);

@@ -1,6 +1,5 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/play/SkinSetup.h"
-#include "bake/report/SkinAsked.h"
 #include "bake/report/Text.h"
 #include "tests/report/Arm.h"
 

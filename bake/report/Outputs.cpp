@@ -96,9 +96,7 @@ Json jsonOf(const SkinStudy& study) {
     return json;
 }
 
-} // namespace
-
-std::string jsonOf(const Report& report) {
+Json jsonOf(const Report& report) {
     Json json{{"scene", report.scene},
               {"machine",
                {{"processor", report.machine.processor},
@@ -120,7 +118,99 @@ std::string jsonOf(const Report& report) {
     };
     add("pairs", report.pairs, report.pairPlots);
     add("skins", report.skins, report.skinPlots);
-    return json.dump(1) + "\n";
+    return json;
+}
+
+std::string cell(const Json& value) {
+    if (value.is_null()) return "";
+    if (!value.is_string()) return value.dump();
+    std::string out = "\"";
+    for (const char c : value.get<std::string>()) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+}
+
+/// headings: of the file; what the rows know none of stays empty.
+template <class R>
+std::string lines(const std::string& path, const std::vector<std::string>& headings,
+                  const Columns<R>& columns, const std::vector<R>& rows) {
+    std::string text;
+    for (const R& row : rows) {
+        text += cell(path);
+        for (const std::string& heading : headings) {
+            text += ',';
+            for (const Column<R>& column : columns)
+                if (column.csv == heading) text += cell(column.value(row));
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+std::string base64(const std::string& bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (std::size_t k = 0; k < bytes.size(); k += 3) {
+        unsigned int three = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            three = three << 8 | (k + i < bytes.size() ? static_cast<unsigned char>(bytes[k + i]) : 0u);
+        for (std::size_t i = 0; i < 4; ++i)
+            out += k + i > bytes.size() ? '=' : digits[three >> (18 - 6 * i) & 63];
+    }
+    return out;
+}
+
+} // namespace
+
+std::string jsonText(const Report& report) {
+    return jsonOf(report).dump(1) + "\n";
+}
+
+std::string csvOf(const Report& report) {
+    std::string text = "pair";
+    std::vector<std::string> headings;
+    for (const Column<Row>& column : methodColumns(PairStudy{}))
+        if (!column.csv.empty()) {
+            headings.push_back(column.csv);
+            text += "," + column.csv;
+        }
+    text += "\n";
+    for (const PairStudy& study : report.pairs)
+        text += lines(study.path, headings, methodColumns(study), study.rows);
+    for (const SkinStudy& study : report.skins)
+        text += lines(study.path, headings, methodColumns(study), study.methods);
+    return text;
+}
+
+std::string pageOf(const Report& report) {
+    Json json = jsonOf(report);
+    for (std::size_t k = 0; k < report.pairs.size(); ++k) {
+        const PairStudy& study = report.pairs[k];
+        const auto own = [&](const Row& row) {
+            return row.method == "tss" && row.setting == study.base.name;
+        };
+        json["pairs"][k]["tables"] = {
+            {"methods", pageTable(methodColumns(study), study.rows, own)},
+            {"models", pageTable(modelColumns(study), modelsOf(study), isBase(study))}};
+    }
+    for (std::size_t k = 0; k < report.skins.size(); ++k) {
+        const SkinStudy& study = report.skins[k];
+        const auto isUsual = [](const SkinAnswer& a) { return a.usual; };
+        json["skins"][k]["tables"] = {
+            {"methods", pageTable(methodColumns(study), study.methods)},
+            {"answers", pageTable(answerColumns(study), study.motion.answers, isUsual)}};
+    }
+    for (std::size_t k = 0; k < report.pairPictures.size(); ++k)
+        for (const Picture& picture : report.pairPictures[k])
+            json["pairs"][k]["pictures"].push_back(
+                {{"caption", picture.caption}, {"png", base64(picture.png)}});
+    std::string data = json.dump();
+    // Nothing in a name ends the script that holds it.
+    for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos; at += 6)
+        data.replace(at, 1, "\\u003c");
+    std::string page(pageTemplate());
+    const std::string place = "REPORT_DATA";
+    page.replace(page.find(place), place.size(), data);
+    return page;
 }
 
 } // namespace tss::reporting
