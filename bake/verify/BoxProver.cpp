@@ -61,7 +61,6 @@ Outcome BoxProver::judge(const Job& job, std::vector<Job>& halves, VerifyResult&
     for (const Apart& p : owed_) widest = std::max(widest, p.b->move);
     if (balls_.empty() && widest < smallest_) {
         broken.pose = box.middle();
-        broken.pair = owed_.front().pair;
         return Outcome::Undecided;
     }
     split(job, box, halves);
@@ -218,22 +217,14 @@ bool BoxProver::breaksAt(const std::vector<double>& q, VerifyResult& broken) con
     if (!withinLimits(m_.motion, q)) return false;
     const Pose at = tss::pose(m_.motion, q);
     double models = infinity, table = infinity;
-    SpherePair pair;
-    for (const Apart& p : owed_) {
-        const double gap = (at * m_.b[p.pair.b].centre - m_.a[p.pair.a].centre).norm() - p.contactDistance;
-        if (gap < models) {
-            models = gap;
-            pair = p.pair;
-        }
-    }
+    for (const Apart& p : owed_)
+        models =
+            std::min(models, (at * m_.b[p.pair.b].centre - m_.a[p.pair.a].centre).norm() - p.contactDistance);
     if (models > claim_.margin) return false;
     for (const Test& t : claim_.tests)
         table = std::min(table, (at * t.centreB - t.centreA).norm() - t.contactDistance);
-    const double promised = std::max(models, -claim_.depth) + claim_.epsilon;
-    if (table <= promised) return false;
+    if (table <= std::max(models, -claim_.depth) + claim_.epsilon) return false;
     broken.pose = q;
-    broken.pair = pair;
-    broken.lag = table - promised;
     return true;
 }
 

@@ -1,11 +1,18 @@
 #pragma once
-#include "bake/verify/Implication.h"
+#include "bake/verify/Models.h"
 #include "bake/verify/PoseBox.h"
 
 #include <memory>
 #include <set>
 
 namespace tss::verify {
+
+/// What is to be shown: wherever the models' gap is <= margin, some test's is <= max(gap, -depth) + epsilon.
+/// No tests: the models' gap is never <= margin.
+struct Claim {
+    std::vector<Test> tests;
+    double epsilon = 0, depth = 0, margin = 0;
+};
 
 struct BallPair {
     std::int32_t a, b;

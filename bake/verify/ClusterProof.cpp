@@ -1,7 +1,5 @@
 #include "bake/verify/KernelProofs.h"
 
-#include "bake/table/TableKernels.h"
-
 #include <fmt/format.h>
 
 namespace tss::verify {

@@ -1,5 +1,4 @@
-#include "bake/table/TableKernels.h"
-#include "bake/verify/KernelErrors.h"
+#include "bake/verify/KernelProofs.h"
 #include "bake/verify/PoseBox.h"
 
 #include <algorithm>

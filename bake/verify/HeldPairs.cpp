@@ -1,4 +1,4 @@
-#include "bake/verify/HeldPairs.h"
+#include "bake/verify/MeshProof.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 #include "bake/verify/Kernel.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/table/TableKernels.h"
-#include "bake/verify/KernelErrors.h"
 #include "bake/verify/KernelProofs.h"
+#include "bake/verify/PoseBox.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,20 +118,8 @@ std::string refuteAnswers(const Table& table, const PreparedTable& prepared, con
 } // namespace
 
 TriedPoses posesToTry(const Table& table) {
-    constexpr int count = 500;
     const std::vector<Exact> tests = exactTests(table);
-    TriedPoses poses;
-    std::vector<double> share(table.motion.dofCount(), 0.5);
-    for (int n = 0; n < count; ++n) {
-        std::vector<double> q;
-        for (std::size_t k = 0; k < share.size(); ++k) {
-            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
-            const Dof& dof = table.motion.dofs[k];
-            q.push_back(dof.lower + share[k] * (dof.upper - dof.lower));
-        }
-        poses.values.push_back(std::move(q));
-    }
-    poses.gaps.resize(count);
+    TriedPoses poses{spreadOverLimits(table.motion, 500), std::vector<Real>(500)};
     const double rounding = 1e-12 * pathSize(table.motion, tests);
     parallelFor(poses.gaps.size(), [&](std::size_t n) {
         const std::vector<double>& q = poses.values[n];

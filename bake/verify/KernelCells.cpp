@@ -1,8 +1,6 @@
 #include "bake/verify/KernelProofs.h"
 
-#include "bake/table/TableKernels.h"
 #include "bake/verify/GapBox.h"
-#include "bake/verify/KernelErrors.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -261,7 +261,6 @@ bool MeshBox::unanswered(const std::vector<double>& q, const std::vector<PiecePa
     const double least = tests_.leastGap(at, claim_.miss + claim_.band, work_);
     if (least <= claim_.miss + claim_.band || !anyWithin(near, at, pairs)) return false;
     broken.pose = q;
-    broken.lag = least;
     return true;
 }
 

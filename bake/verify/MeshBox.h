@@ -1,5 +1,4 @@
 #pragma once
-#include "bake/verify/HeldPairs.h"
 #include "bake/verify/MeshProof.h"
 #include "bake/verify/TestTree.h"
 

@@ -53,37 +53,13 @@ MeshPart runMeshPart(MeshBox& prover, MeshJob job, std::uint64_t work) {
     return part;
 }
 
-/// Poses spread over Q, to find what is plainly wrong before anything is proven: rest, the ends of every DOF,
-/// and a low-discrepancy sequence.
-std::vector<std::vector<double>> firstPoses(const Motion& motion) {
-    constexpr int count = 400;
-    std::vector<std::vector<double>> poses{clampToLimits(motion, restValues(motion))};
-    std::vector<double> share(motion.dofCount(), 0.5);
-    for (int n = 0; n < count; ++n) {
-        std::vector<double> q;
-        for (std::size_t k = 0; k < share.size(); ++k) {
-            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
-            const double wide = std::clamp(1.1 * share[k] - 0.05, 0.0, 1.0); // some on the limits
-            const Dof& dof = motion.dofs[k];
-            q.push_back(std::clamp(dof.lower + wide * (dof.upper - dof.lower), dof.lower, dof.upper));
-        }
-        poses.push_back(std::move(q));
-    }
-    return poses;
-}
-
-/// What the jobs hold, halves that share their pairs counted once.
-double bytesOf(const std::vector<MeshJob>& jobs) {
-    double bytes = 0;
-    for (const MeshJob& job : jobs) bytes += double(job.open->size() * sizeof(PiecePair)) / 2;
-    return bytes;
-}
-
-/// Looks for a plain failure at some poses.
+/// Looks for what is plainly wrong before anything is proven: at rest, and at poses spread over Q.
 bool brokenAtOnce(MeshBox& box, const Motion& motion, const std::vector<PiecePair>& open,
                   const Progress& progress, MeshProofResult& result) {
+    std::vector<std::vector<double>> poses = spreadOverLimits(motion, 400, 0.05);
+    poses.insert(poses.begin(), clampToLimits(motion, restValues(motion)));
     bool broken = false;
-    for (const std::vector<double>& q : firstPoses(motion)) {
+    for (const std::vector<double>& q : poses) {
         if (!report(progress, "verify", 0)) break;
         if ((broken = box.breaksAt(q, open, result))) break;
     }
@@ -126,7 +102,7 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
     const auto open = std::make_shared<const std::vector<PiecePair>>(pairsNotHeld(a, b, claim).value_or(all));
     std::vector<MeshJob> jobs;
     if (!open->empty()) jobs.push_back({limitsOf(motion), open});
-    double shown = 0, most = 0;
+    double shown = 0;
     constexpr std::size_t width = 64;
     while (!jobs.empty()) {
         if ((claim.work > 0 && result.work >= claim.work) || !report(progress, "verify", shown)) {
@@ -143,12 +119,9 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
             result.work += part.work;
             shown += part.shown;
         }
-        most = std::max(most, bytesOf(jobs));
-        result.bytes = most;
         for (const MeshPart& part : parts) {
             if (part.outcome == Outcome::Shown) continue;
             result.pose = part.broken.pose;
-            result.lag = part.broken.lag;
             result.reason = part.outcome == Outcome::Broken
                                 ? broken
                                 : "near a pose it cannot be told from rounding whether the claim holds";

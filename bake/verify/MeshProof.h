@@ -9,6 +9,7 @@
 #include "bake/verify/SurfaceTree.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace tss::verify {
@@ -37,10 +38,8 @@ struct MeshProofResult {
     bool proven = false;
     std::string reason;       ///< why not; empty when proven
     std::vector<double> pose; ///< that breaks the claim, or where it could not be told; may be empty
-    double lag = 0;           ///< at a pose that breaks it: the least gap of a test there
     std::uint64_t cells = 0;  ///< boxes of Q looked at
     std::uint64_t work = 0;   ///< comparisons of patches
-    double bytes = 0;         ///< of the trees and of what was open at the same time, about
 };
 
 /// Proves the claim for every pose of the motion's limits from the surfaces themselves, by branch and bound
@@ -53,5 +52,12 @@ MeshProofResult proveMeshClaim(const SurfaceTree& a, const SurfaceTree& b, const
 /// units) apart at every pose of the limits: what moves B along that normal is bounded DOF by DOF, in
 /// extended precision. false: not shown.
 bool apartAcrossAxis(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion, double clearance);
+
+/// Where a sphere of A contains a piece of its surface, one of B another, and the two are a test, that test
+/// fires wherever the pieces meet: at every pose, with nothing to be known of the motion. Of a table that
+/// asks nearly all pairs of its spheres these are nearly all pairs of pieces. Returns the pairs that are left
+/// to be shown, which together with those are all of both surfaces; nothing where they are too many to list.
+std::optional<std::vector<PiecePair>> pairsNotHeld(const SurfaceTree& a, const SurfaceTree& b,
+                                                   const MeshClaim& claim);
 
 } // namespace tss::verify

@@ -1,8 +1,9 @@
 #include "bake/verify/MeshVerify.h"
 
 #include "bake/base/Error.h"
-#include "bake/verify/EarlyProof.h"
 #include "bake/verify/Models.h"
+#include "bake/verify/Nesting.h"
+#include "bake/verify/StickingOut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,6 @@ std::string unfit(const Motion& motion) {
 void take(MeshVerdict& verdict, MeshProofResult&& result) {
     verdict.cells += result.cells;
     verdict.work += result.work;
-    verdict.bytes = std::max(verdict.bytes, result.bytes);
     if (result.proven) return;
     verdict.reason = std::move(result.reason);
     verdict.pose = std::move(result.pose);
@@ -96,12 +96,33 @@ bool takeRegion(MeshVerdict& verdict, const Frame& frame, const RestRegion& regi
     return verdict.holds();
 }
 
+/// Shows that wherever a test fires the two surfaces are at most as far apart as the table states: how far
+/// the spheres of each test stick out of their bodies bounds how far apart the bodies are, and Nesting.h
+/// shows that then neither is inside the other with the surfaces apart.
+void proveEarly(MeshVerdict& verdict, const Frame& frame, const StickingOut& outA, const StickingOut& outB,
+                const std::vector<MeshTest>& tests, double stated, const Progress& progress) {
+    const double granted = (stated + frame.band) * (1 + 1e-6);
+    verdict.earlyBound = mostTogether(tests, outA.surface, outB.surface);
+    verdict.early = *verdict.earlyBound <= granted;
+    if (verdict.early) return;
+    verdict.fillings = (frame.a.solid && frame.a.solid->open()) || (frame.b.solid && frame.b.solid->open());
+    verdict.earlyBound = mostTogether(tests, outA.body, outB.body);
+    if (!(*verdict.earlyBound <= granted)) {
+        verdict.reason = "its spheres stick out by more than the stored bound on early reports";
+        return;
+    }
+    NestingResult nesting =
+        proveNoNesting(frame.a, frame.b, frame.motion, frame.size, tests, granted, progress);
+    verdict.cells += nesting.cells;
+    verdict.early = nesting.reason.empty();
+    verdict.reason = std::move(nesting.reason);
+    verdict.pose = std::move(nesting.pose);
+}
+
 void proveMiss(MeshVerdict& verdict, const Frame& frame, const RestRegion& region, const MeshClaim& claim,
                const Progress& progress) {
     const SurfaceTree treeA(frame.a.mesh, region.a), treeB(frame.b.mesh, region.b);
     MeshProofResult result = proveMeshClaim(treeA, treeB, frame.motion, frame.size, claim, progress);
-    result.bytes += double((treeA.nodes.size() + treeB.nodes.size()) * sizeof(SurfaceTree::Node) +
-                           (treeA.patches.size() + treeB.patches.size()) * sizeof(SurfacePatch));
     verdict.miss = result.proven;
     take(verdict, std::move(result));
 }
@@ -127,17 +148,7 @@ MeshVerdict verifyOnMeshes(const TriangleMesh& meshA, const TriangleMesh& meshB,
     const StickingOut outA = stickingOut(frame.a, table.a), outB = stickingOut(frame.b, table.b);
     verdict.reason = contradiction(table, outA, outB, frame.band);
     if (!verdict.holds()) return verdict;
-    if (table.boundEarly) {
-        EarlyResult early = proveEarly(frame.a, frame.b, motion, frame.size, outA, outB, claim.tests,
-                                       *table.boundEarly + frame.band, progress);
-        verdict.cells += early.cells;
-        verdict.early = early.proven;
-        verdict.earlyBound = early.bound;
-        verdict.fillings = !early.surfaces && ((frame.a.solid && frame.a.solid->open()) ||
-                                               (frame.b.solid && frame.b.solid->open()));
-        verdict.reason = std::move(early.reason);
-        verdict.pose = std::move(early.pose);
-    }
+    if (table.boundEarly) proveEarly(verdict, frame, outA, outB, claim.tests, *table.boundEarly, progress);
     if (verdict.holds() && table.boundMiss) proveMiss(verdict, frame, table.restRegion, claim, progress);
     return verdict;
 }

@@ -24,7 +24,6 @@ struct MeshVerdict {
     double band = 0;           ///< rounding granted to lengths, scene units
     std::uint64_t cells = 0;   ///< boxes of Q looked at
     std::uint64_t work = 0;    ///< comparisons of patches
-    double bytes = 0;          ///< of what was open at the same time, about
     bool holds() const { return reason.empty(); }
 };
 

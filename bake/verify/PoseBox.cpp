@@ -30,6 +30,21 @@ Box limitsOf(const Motion& motion) {
     return box;
 }
 
+std::vector<std::vector<double>> spreadOverLimits(const Motion& motion, int count, double onLimits) {
+    std::vector<std::vector<double>> poses;
+    std::vector<double> share(motion.dofCount(), 0.5);
+    for (int n = 0; n < count; ++n) {
+        std::vector<double>& q = poses.emplace_back();
+        for (std::size_t k = 0; k < share.size(); ++k) {
+            share[k] = std::fmod(share[k] + 1 / std::sqrt(double(k) + 2.3), 1.0);
+            const double wide = std::clamp((1 + 2 * onLimits) * share[k] - onLimits, 0.0, 1.0);
+            const Dof& dof = motion.dofs[k];
+            q.push_back(std::clamp(dof.lower + wide * (dof.upper - dof.lower), dof.lower, dof.upper));
+        }
+    }
+    return poses;
+}
+
 bool meetsPlanes(const Motion& motion, const Box& box) {
     for (const LimitPlane& plane : motion.planes) {
         double least = 0, size = std::abs(plane.bound);

@@ -21,6 +21,10 @@ Box limitsOf(const Motion& motion);
 /// Some pose of the box may be inside all limit planes.
 bool meetsPlanes(const Motion& motion, const Box& box);
 
+/// DOF values spread over the limits, planes not looked at: a low-discrepancy sequence. onLimits: the share
+/// of each range at either end that falls on the limit.
+std::vector<std::vector<double>> spreadOverLimits(const Motion& motion, int count, double onLimits = 0);
+
 /// Where a point of B is at the middle of a box and how it may move while q stays in the box. Everything
 /// includes its own rounding error.
 struct MovingPoint {

@@ -1,6 +1,7 @@
 #include "bake/verify/RegionProof.h"
 
 #include "bake/base/UnionFind.h"
+#include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/geometry/TriangleDistance.h"
 
@@ -53,6 +54,10 @@ double distanceTo(const VerifiedBody& body, const TriangleMesh& piece, const Pos
 }
 
 } // namespace
+
+VerifiedBody::VerifiedBody(const TriangleMesh& mesh) : mesh(mesh), surface(mesh) {
+    if (auditMesh(mesh).usable()) solid.emplace(cleaned(mesh));
+}
 
 ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const RestRegion& region) {
     const auto shareOf = [](const TriangleMesh& mesh, double exempt) {

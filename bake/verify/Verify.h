@@ -11,9 +11,6 @@ struct VerifyOptions {
     /// those touch when they are deeper in each other than `depth`, scene units; < 0: never.
     std::vector<char> regionA, regionB;
     double depth = -1;
-    double band = -1; ///< rounding band granted on top of the table's epsilon, scene units; < 0: 1e-9 of the
-                      ///< coordinates' size
-    std::uint64_t cells = 0; ///< give up after about so many cells of Q; 0: never
 };
 
 /// What came out of re-proving a table.
@@ -21,11 +18,9 @@ struct VerifyResult {
     bool proven = false; ///< the table keeps its promise at every pose of Q
     std::string reason;  ///< why not, in words; empty when proven
     std::vector<double>
-        pose;       ///< DOF values that break it, or at which nothing could be decided; may be empty
-    double lag = 0; ///< at that pose: gap of the table - what it promised, scene units
-    std::optional<SpherePair> pair; ///< at that pose: the pair of the whole sets that the table misses
-    double band = 0;                ///< rounding band that was granted
-    std::uint64_t cells = 0;        ///< cells of Q looked at
+        pose;                ///< DOF values that break it, or at which nothing could be decided; may be empty
+    double band = 0;         ///< rounding granted on top of the table's epsilon, scene units
+    std::uint64_t cells = 0; ///< cells of Q looked at
 };
 
 /// Proves again, with code of its own and without trust in the baker (METHOD 3.6):

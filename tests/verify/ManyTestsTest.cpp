@@ -1,4 +1,4 @@
-#include "bake/verify/HeldPairs.h"
+#include "bake/verify/MeshProof.h"
 #include "bake/verify/MeshVerify.h"
 #include "bake/verify/Nesting.h"
 #include "bake/verify/TestTree.h"

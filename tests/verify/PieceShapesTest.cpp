@@ -1,5 +1,5 @@
 // The shapes that are kept are those that would be made anew.
-#include "bake/verify/PieceShapes.h"
+#include "bake/verify/SurfaceTree.h"
 #include "tests/Shapes.h"
 
 #include <bit>
