@@ -6,7 +6,6 @@
 #include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/Description.h"
 #include "bake/tool/FreeingAdvice.h"
 #include "bake/tool/KeptParts.h"
 #include "bake/tool/SceneMotion.h"

@@ -3,7 +3,6 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Bench.h"
 #include "bake/table/TableKernels.h"
-#include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/base/Progress.h"
 #include "bake/base/Words.h"
+#include "bake/model/SceneModel.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -39,6 +40,10 @@ void refuseOverwriting(const std::string& output, std::initializer_list<std::str
 /// programs: before long work, not after it.
 void expectScene(const std::string& output);
 void expectText(const std::string& output);
+
+/// The pair of this prim path, or the only one of the scene when the path is empty. Throws InputError that
+/// names the file and the pairs there are, and where its table was made for another scene.
+const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, const std::string& file);
 
 /// Adds --json and --quiet to a command.
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,

@@ -3,6 +3,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
+#include "bake/model/SourceHash.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -73,6 +74,22 @@ void expectText(const std::string& output) {
         throw InputError(Where{output},
                          "is the name of a scene, a robot or a mesh; expected one such as out.csv");
     expectWritable(output);
+}
+
+const Pair& chooseFreshPair(const SceneModel& scene, const std::string& path, const std::string& file) {
+    std::string known;
+    for (const Pair& pair : scene.pairs) {
+        if (pair.path == path || (path.empty() && scene.pairs.size() == 1)) {
+            requireFresh(scene, pair, file);
+            return pair;
+        }
+        known += (known.empty() ? "" : ", ") + pair.path;
+    }
+    if (known.empty())
+        throw InputError(Where{file, "", path}, "expected a pair of rigid bodies, the scene has none");
+    if (findSkin(scene, path) >= 0)
+        throw InputError(Where{file, "", path}, "is a skin; expected a pair, one of: " + known);
+    throw InputError(Where{file, "", path}, "no such pair; expected --pair with one of: " + known);
 }
 
 CLI::App* addCommand(CLI::App& app, Console& console, const std::string& name,

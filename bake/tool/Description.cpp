@@ -1,4 +1,4 @@
-#include "bake/tool/Description.h"
+#include "bake/tool/Summary.h"
 
 #include "bake/pipeline/BakeOptions.h"
 

@@ -139,22 +139,21 @@ private:
         console_.say(fmt::format(
             "{}: the meshes are apart at rest and touch at {} of {} poses. Where they should not, look at "
             "origin, axis\n  and limits.{} Where it is the joint's own surfaces that overlap, let it rest "
-            "there "
-            "({}): they are free\n  then, and moves of {} that give them room are looked for",
+            "there ({}): they are free\n  then, and moves of {} that give them room are looked for",
             pair_.path, elsewhere.touching, elsewhere.poses,
-            motion_.dofCount() > 1 ? " Where one value drives the others, as of gears, let a path say so "
-                                     "(--dof path).\n "
-                                   : "",
+            motion_.dofCount() > 1
+                ? " Where one value drives the others, as of gears, let a path say so (--dof path).\n "
+                : "",
             restAt(elsewhere.values), b_));
     }
 
     /// Overlapping at rest: whether on purpose is not known.
     void sayApart(const ApartElsewhere& found) const {
-        console_.say(fmt::format(
-            "{}: the meshes overlap where the joint rests, and what overlaps there is excepted; at {} of {} "
-            "poses they\n  are apart. Where they should not overlap, let it rest where they are {} apart "
-            "({})",
-            pair_.path, found.apart, found.poses, length(found.distance), restAt(found.values)));
+        console_.say(fmt::format("{}: the meshes overlap where the joint rests, and what overlaps there is "
+                                 "excepted; at {} of {} poses they\n  are apart. Where they should not "
+                                 "overlap, let it rest where they are {} apart ({})",
+                                 pair_.path, found.apart, found.poses, length(found.distance),
+                                 restAt(found.values)));
     }
 
     /// The option or the attribute by which a joint rests at these values.

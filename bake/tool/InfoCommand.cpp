@@ -1,6 +1,5 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/BakeTimes.h"
-#include "bake/tool/Description.h"
 #include "bake/tool/Summary.h"
 
 #include <fmt/format.h>

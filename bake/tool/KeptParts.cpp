@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <utility>
 
 namespace tss::tool {
 
@@ -12,7 +13,7 @@ namespace {
 /// Seconds between two writes of the incomplete file: what may be lost where the program is killed.
 constexpr double keepEvery = 60;
 
-volatile std::sig_atomic_t received = 0;
+volatile std::sig_atomic_t received = 0; ///< the signal that came; 0: none
 
 void receive(int signal) {
     received = signal;
@@ -50,21 +51,6 @@ std::string freeName(const std::string& output) {
 
 } // namespace
 
-/// While an object of this exists, the first SIGINT or SIGTERM is noted instead of ending the program; the
-/// second one ends it.
-class Interrupt {
-public:
-    Interrupt() {
-        received = 0;
-        install(receive);
-    }
-    ~Interrupt() { install(SIG_DFL); }
-    Interrupt(const Interrupt&) = delete;
-
-    /// The signal that came; 0: none.
-    static int signal() { return received; }
-};
-
 std::string incompleteName(const std::string& output, int number) {
     std::filesystem::path path(output);
     const std::string extension = path.extension().string();
@@ -80,15 +66,24 @@ KeptParts::KeptParts(SceneModel& scene, const std::string& input, std::string ou
     incomplete_ = kept_ ? incompleteName(output_) : freeName(output_);
 }
 
-KeptParts::~KeptParts() = default;
+KeptParts::~KeptParts() {
+    release();
+}
+
+void KeptParts::release() {
+    if (std::exchange(holds_, false)) install(SIG_DFL);
+}
 
 void KeptParts::run(BakeRequest request) {
-    if (!interrupt_) interrupt_ = std::make_unique<Interrupt>();
+    if (!std::exchange(holds_, true)) {
+        received = 0;
+        install(receive);
+    }
     request.done = [&](const PairReport& report) { done(report); };
     request.failed = [&](const InputError& error) { failures_.push_back(error); };
-    request.interrupted = [] { return Interrupt::signal() != 0; };
+    request.interrupted = [] { return received != 0; };
     bake(scene_, request, console_.progress());
-    signal_ = Interrupt::signal();
+    signal_ = received;
     request.onlyMissing = true;
     const std::vector<std::string> missing = pathsToBake(scene_, request);
     missing_.insert(missing_.end(), missing.begin(), missing.end());
@@ -113,14 +108,14 @@ void KeptParts::done(const PairReport& report) {
 
 std::string KeptParts::write() {
     if (!complete() && !hasTable(scene_)) {
-        interrupt_.reset();
+        release();
         return {};
     }
     const std::string file = complete() ? output_ : incomplete_;
     writeTo(file);
     std::error_code none;
     if (complete() && kept_) std::filesystem::remove(incomplete_, none);
-    interrupt_.reset();
+    release();
     return file;
 }
 

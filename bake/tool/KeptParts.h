@@ -4,11 +4,7 @@
 #include "bake/pipeline/Bake.h"
 #include "bake/tool/BakeTimes.h"
 
-#include <memory>
-
 namespace tss::tool {
-
-class Interrupt;
 
 /// "jaw.incomplete.tss" for "jaw.tss", or "jaw.incomplete2.tss": what a bake that did not come to its end
 /// leaves, so that a file of the name asked for is always whole.
@@ -40,18 +36,19 @@ public:
 private:
     void done(const PairReport& report);
     void writeTo(const std::string& file) const;
+    void release(); ///< signals end the program again
 
     SceneModel& scene_;
     const std::string output_;
     std::string incomplete_;
-    std::unique_ptr<Interrupt> interrupt_;
     BakeTimes times_;
     const Console& console_;
     Json notes_ = Json::object();
     std::vector<InputError> failures_;
     std::vector<std::string> missing_;
     int signal_ = 0;
-    bool kept_ = false; ///< the incomplete file is this bake's own
+    bool holds_ = false; ///< signals are noted
+    bool kept_ = false;  ///< the incomplete file is this bake's own
     Stopwatch sinceKept_;
 };
 

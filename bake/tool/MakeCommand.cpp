@@ -8,9 +8,8 @@
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/FreeingAdvice.h"
-#include "bake/tool/RobotCommand.h"
+#include "bake/tool/MakeScene.h"
 #include "bake/tool/SceneMotion.h"
-#include "bake/tool/WholeScene.h"
 
 #include <cctype>
 #include <filesystem>
@@ -153,10 +152,9 @@ void makePair(const MakeArguments& arguments, const Console& console) {
     console.say("joint  " + describeDofs(motion, scene.metersPerUnit));
     remarkSizes(scene, console);
     if (saidOfA.upAxis != '\0' && saidOfB.upAxis != '\0' && saidOfA.upAxis != saidOfB.upAxis)
-        console.say(
-            fmt::format("note: {} says that {} is up, and {} that {} is; nothing is turned: write one "
-                        "of them as the other",
-                        arguments.a, saidOfA.upAxis, arguments.b, saidOfB.upAxis));
+        console.say(fmt::format("note: {} says that {} is up, and {} that {} is; nothing is turned: write "
+                                "one of them as the other",
+                                arguments.a, saidOfA.upAxis, arguments.b, saidOfB.upAxis));
     remarkLimits(motion, console);
     remarkFarAxes(motion, scene, console);
     console.say("wrote " + arguments.output + "; next: tss bake " + shellWord(arguments.output) +
@@ -198,10 +196,9 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
     command
-        .add_option(
-            "--offset", robot.offsets,
-            "LINK=X,Y,Z: moves a link or --body, with what hangs on it, at its joint by that, in its own "
-            "frame; repeat, they add up")
+        .add_option("--offset", robot.offsets,
+                    "LINK=X,Y,Z: moves a link or --body, with what hangs on it, at its joint by that, in its "
+                    "own frame; repeat, they add up")
         ->allow_extra_args(false)
         ->excludes(command.get_option("--a"));
 }

@@ -5,7 +5,6 @@
 #include "bake/play/MechanismQuery.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/table/Query.h"
-#include "bake/tool/ChoosePair.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
 #include "bake/tool/SceneMotion.h"

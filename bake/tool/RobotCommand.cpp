@@ -1,4 +1,4 @@
-#include "bake/tool/RobotCommand.h"
+#include "bake/tool/MakeScene.h"
 
 #include "bake/base/Error.h"
 #include "bake/geometry/MeshAudit.h"

@@ -11,4 +11,8 @@ Json summary(const SceneModel& scene, const SkinModel& skin);
 /// pairs[] and skins[] of a scene.
 Json summary(const SceneModel& scene);
 
+/// The summary of a scene for people: one block of lines for each pair and skin (docs/TSS.md,
+/// section 2, has what each line says).
+std::string describe(const Json& summaryOfScene);
+
 } // namespace tss::tool

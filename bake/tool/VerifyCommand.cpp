@@ -113,6 +113,18 @@ std::string claims(const Pair& pair, double metersPerUnit) {
     return text.empty() ? "nothing is claimed" : text;
 }
 
+/// Says what came of a pair or skin: `good` and the notes, or why it does not hold. Returns whether it does.
+bool tell(const std::string& file, const std::string& path, const std::string& why, const std::string& good,
+          const std::vector<std::string>& notes, const Console& console) {
+    if (!why.empty()) {
+        fmt::print(stderr, "{} (<{}>): {}\n", file, path, why);
+        return false;
+    }
+    console.say(fmt::format("{}: {}", path, good));
+    for (const std::string& note : notes) console.say("  " + note);
+    return true;
+}
+
 /// Reports one pair; whether it holds.
 bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pair, Json& result,
                Console& console, Budget budget) {
@@ -128,17 +140,12 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pai
     json["reason"] = why;
     json["seconds"] = seconds;
     json["peakMegabytes"] = peakMemory();
-    if (why.empty()) {
-        console.say(
-            fmt::format("{}: holds at every pose: {} ({} cells, rounding band {}, {:.3g} s, {:.3g} MB)",
-                        pair.path, claims(pair, scene.metersPerUnit), json["cells"].dump(),
-                        lengthText(json["band"].get<double>(), scene.metersPerUnit), seconds, peakMemory()));
-        for (const Json& note : json["notes"]) console.say("  " + note.get<std::string>());
-    } else {
-        fmt::print(stderr, "{} (<{}>): {}\n", file, pair.path, why);
-    }
+    const std::string good =
+        fmt::format("holds at every pose: {} ({} cells, rounding band {}, {:.3g} s, {:.3g} MB)",
+                    claims(pair, scene.metersPerUnit), json["cells"].dump(),
+                    lengthText(json["band"].get<double>(), scene.metersPerUnit), seconds, peakMemory());
     result["pairs"].push_back(json);
-    return why.empty();
+    return tell(file, pair.path, why, good, json["notes"], console);
 }
 
 /// Looks at one skin again; whether nothing was found.
@@ -158,13 +165,7 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const SkinModel
                                {"states", verdict.states},
                                {"late", verdict.late},
                                {"lateAtRest", verdict.lateAtRest}});
-    if (thrown.empty()) {
-        console.say(fmt::format("{}: checked, not proven", skin.path));
-        for (const std::string& note : verdict.notes) console.say("  " + note);
-    } else {
-        fmt::print(stderr, "{} (<{}>): {}\n", file, skin.path, thrown);
-    }
-    return thrown.empty();
+    return tell(file, skin.path, thrown, "checked, not proven", verdict.notes, console);
 }
 
 void verify(const std::string& file, double budget, Console& console) {
@@ -211,24 +212,23 @@ void addVerify(CLI::App& app, Console& console) {
             "--budget", *budget,
             "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes")
         ->check(CLI::NonNegativeNumber);
-    command->footer(
-        "Proven from the file and the meshes alone, at every pose of the limits: that some test "
-        "reports where the\n"
-        "meshes meet (miss); that where a test reports they are as near as stated (early); that "
-        "meshes said to\n"
-        "never collide stay as far apart as stated; that each kind of run-time kernel that this "
-        "machine has rounds\n"
-        "within its band; that no stored sphere sticks out farther than is said of its body. Counts, "
-        "the least number\n"
-        "of tests and what is said of spheres that the file does not hold are not proven, and "
-        "refused where the table\n"
-        "contradicts them. A gap that a table states down to a depth is proven against spheres "
-        "made again from the\n"
-        "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
-        "of each muscle by\n"
-        "itself is checked, and one that says it is certified is refused.\n"
-        "Exits with 0 where all hold, with 1 where one does not or is not decided.\n" +
-        app.get_footer());
+    command->footer("Proven from the file and the meshes alone, at every pose of the limits: that some test "
+                    "reports where the\n"
+                    "meshes meet (miss); that where a test reports they are as near as stated (early); that "
+                    "meshes said to\n"
+                    "never collide stay as far apart as stated; that each kind of run-time kernel that this "
+                    "machine has rounds\n"
+                    "within its band; that no stored sphere sticks out farther than is said of its body. "
+                    "Counts, the least number\n"
+                    "of tests and what is said of spheres that the file does not hold are not proven, and "
+                    "refused where the table\n"
+                    "contradicts them. A gap that a table states down to a depth is proven against spheres "
+                    "made again from the\n"
+                    "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
+                    "of each muscle by\n"
+                    "itself is checked, and one that says it is certified is refused.\n"
+                    "Exits with 0 where all hold, with 1 where one does not or is not decided.\n" +
+                    app.get_footer());
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
 

@@ -1,4 +1,4 @@
-#include "bake/tool/WholeScene.h"
+#include "bake/tool/MakeScene.h"
 
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
@@ -10,9 +10,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
 #include "bake/tool/FreeingAdvice.h"
-#include "bake/tool/RobotCommand.h"
 #include "bake/tool/SceneMotion.h"
-#include "bake/tool/SoftBodies.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -127,9 +125,7 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     RobotSceneRequest request;
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
     RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
-    SoftBodies soft(made, robot, console);
-    for (const std::string& muscle : arguments.muscles) soft.addMuscle(muscle);
-    for (const std::string& skin : arguments.skins) soft.addSkin(skin, arguments.bones);
+    addSoftBodies(made, robot, arguments, console);
     if (const std::string text = unlikeUnits(made.scene); !text.empty()) made.notes.push_back(text);
     if (arguments.motion.empty())
         addShowMotion(made.scene);
