@@ -49,7 +49,7 @@ public:
     std::vector<TriangleMesh> worldMeshes() const;
 
 private:
-    class State;
+    struct State;
     std::unique_ptr<State> state_;
 };
 
