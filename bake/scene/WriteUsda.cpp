@@ -1,7 +1,7 @@
 #include "bake/scene/WriteUsda.h"
 
 #include "bake/scene/Schema.h"
-#include "bake/scene/UsdaValue.h"
+#include "bake/scene/UsdaText.h"
 #include "bake/scene/WriteLayer.h"
 
 #include <algorithm>

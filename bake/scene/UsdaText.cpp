@@ -1,4 +1,4 @@
-#include "bake/scene/UsdaValue.h"
+#include "bake/scene/UsdaText.h"
 
 #include "bake/scene/Utf8.h"
 #include "bake/scene/WriteLayer.h"
