@@ -4,7 +4,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/bind/SkinNormals.h"
 #include "bake/bind/SkinSpans.h"
-#include "bake/geometry/MeshQuery.h"
+#include "bake/geometry/Solid.h"
 
 #include <algorithm>
 #include <array>
@@ -187,8 +187,7 @@ SkinAnatomy::SkinAnatomy(const TriangleMesh& mesh,
         locators.emplace_back(surface);
         surfaceNormals.push_back(vertexNormals(surface));
         inside.emplace_back();
-        if (body->rigid()) continue;
-        const MeshQuery solid(surface);
+        const Solid solid(surface);
         const Eigen::AlignedBox3d box = bounds(surface);
         std::vector<char> within(mesh.vertices.size(), 0);
         parallelFor(within.size(), [&](std::size_t v) {

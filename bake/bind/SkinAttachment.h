@@ -23,7 +23,7 @@ struct SkinAnatomy {
     std::vector<ClosestPointQuery> locators;       ///< one per body
     bool inverted = false;                         ///< the mesh as given is wound inwards, towards the bodies
     std::vector<std::vector<Vec3>> surfaceNormals; ///< per body: vertex normals
-    /// Per body #V: the vertex is inside of the muscle at rest; empty: a bone.
+    /// Per body #V: the vertex is inside of it at rest.
     std::vector<std::vector<bool>> inside;
     Vec3 centre = Vec3::Zero(); ///< of the bounds of the skin's triangles
     double size = 0;            ///< diagonal of these bounds, scene units; 1 where it is 0

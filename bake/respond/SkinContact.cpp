@@ -125,6 +125,17 @@ float roomAt(const SkinBody& body, const SurfacePoint& at) {
     return room;
 }
 
+/// The nearest point of those triangles of a bone that face either way.
+SurfacePoint nearestOf(const SkinBody& bone, const Vec3f& x, float range, const Vec3f& one,
+                       const Vec3f& other, int first) {
+    const Vec3 place = x.cast<double>();
+    const NearestPoint best =
+        bone.locator->nearestFacing(place, static_cast<double>(range), one.cast<double>(), first);
+    const NearestPoint second = bone.locator->nearestFacing(
+        place, best.triangle < 0 ? static_cast<double>(range) : best.distance, other.cast<double>());
+    return toPoint(second.triangle < 0 ? best : second);
+}
+
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
     plane.vertices = 1;
@@ -141,12 +152,11 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const float reach = std::max(boneReach * rig.radius, boneReachOfSize);
     if (body.bone()) {
         int first = rig.starts[row.first];
-        if (row.offset == 0) first = body.locator->entered((x - motion).cast<double>(), x.cast<double>());
+        if (!row.insideAtRest) first = body.locator->entered((x - motion).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
         // Beyond this depth entryTrust() is 0.
         const float range = std::min(reach, 2 * (motion.norm() - row.offset));
-        hit = toPoint(body.locator->nearestFacing(x.cast<double>(), static_cast<double>(range),
-                                                  own.cast<double>(), first));
+        hit = nearestOf(body, x, range, own, row.facing, first);
     } else {
         const Move* surface = scene.surface.data() + body.first;
         const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
@@ -156,7 +166,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Move* normals = scene.normals.data() + body.first;
     Vec3f smooth =
         smoothNormal(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
-    // Skin inside a muscle may be nearest to its far side: the side faced at rest counts too.
+    // Skin in a body may be nearest to its far side, or edge on: the side faced at rest counts too.
     float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
     const Tri& t = body.triangles[hit.triangle];

@@ -85,8 +85,7 @@ struct SkinRow {
     Eigen::Vector3f weights = Eigen::Vector3f::Zero(); ///< ... and barycentric weights
     std::uint32_t clearance =
         0; ///< first in SkinRig::clearances: one per node of its muscle, else one at rest
-    Eigen::Vector3f facing =
-        Eigen::Vector3f::Zero(); ///< SkinOnBody of a muscle: unit normal at the anchor at rest
+    Eigen::Vector3f facing = Eigen::Vector3f::Zero(); ///< SkinOnBody: unit normal at the anchor at rest
     Eigen::Vector3f atRest = Eigen::Vector3f::Zero(); ///< anchorOffset() at rest
     float offset = 0; ///< least signed distance to keep, <= 0: the overlap at rest, run-time lengths
 };

@@ -41,23 +41,6 @@ void addRowsOf(SkinRig& rig, const SkinContacts& found, SkinContactKind kind, st
     }
 }
 
-/// Signed distance of a point from a bone, negative inside, by the nearest point of the whole surface,
-/// whichever way that faces.
-float signedDistance(const SkinBody& body, const Move& place) {
-    const Vec3 x = place.head<3>().cast<double>();
-    const NearestPoint near = body.locator->nearest(x, infinity);
-    if (near.triangle < 0) return 0;
-    Vec3 normal = triangleNormal(*body.mesh, near.triangle);
-    if (!(near.weights.minCoeff() > 0)) {
-        normal.setZero();
-        for (int k = 0; k < 3; ++k)
-            normal +=
-                near.weights[k] * body.normals[body.triangles[near.triangle][k]].head<3>().cast<double>();
-    }
-    const auto distance = static_cast<float>(near.distance);
-    return normal.dot(x - near.point) >= 0 ? distance : -distance;
-}
-
 bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
     return row.kind != SkinContactKind::SkinOnSkin && !rig.bodies[row.body].bone();
 }
@@ -87,7 +70,7 @@ void boundBetweenNodes(SkinClearance* nodes, std::size_t count) {
 /// clearance.
 void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     const bool body = row.kind == SkinContactKind::SkinOnBody, bone = rig.bodies[row.body].bone();
-    if (body && !bone) {
+    if (body) {
         for (int k = 0; k < 3; ++k)
             row.facing +=
                 row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
@@ -105,8 +88,12 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     }
     if (body && bone) {
         // No contact before the vertex has moved by its distance from the bone.
-        clearance.gap() = std::max(signedDistance(rig.bodies[row.body], scene.skin[row.vertex]), 0.0f);
-        if (plane.found && clearance.gap() == 0) row.offset = std::min(plane.distance, 0.0f);
+        const Vec3 x = scene.skin[row.vertex].head<3>().cast<double>();
+        clearance.gap() =
+            row.insideAtRest
+                ? 0
+                : static_cast<float>(rig.bodies[row.body].locator->nearest(x, infinity).distance);
+        if (row.insideAtRest && plane.found) row.offset = std::min(plane.distance, 0.0f);
     } else if (plane.found) {
         row.offset = std::min(plane.distance, 0.0f);
         clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.relative().norm());
@@ -140,15 +127,11 @@ std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, cons
         ContactCandidate& candidate = result[k];
         const Vec3 &x = anatomy.skin.vertices[candidate.vertex], &own = anatomy.normals[candidate.vertex];
         const ClosestPointQuery& locator = anatomy.locators[candidate.body];
-        candidate.inside =
-            !anatomy.inside[candidate.body].empty() && anatomy.inside[candidate.body][candidate.vertex];
+        candidate.inside = anatomy.inside[candidate.body][candidate.vertex];
         const MuscleDeformer& body = *anatomy.bodies[candidate.body];
         candidate.nearest = locator.nearest(x, anatomy.size);
-        if (body.rigid() && candidate.nearest.triangle >= 0) {
+        if (body.rigid() && candidate.nearest.triangle >= 0)
             candidate.fromOutside = facesFromOutside(body.muscle().surface, candidate.nearest, x, own);
-            candidate.nearest =
-                locator.nearestFacing(x, anatomy.size, candidate.fromOutside ? Vec3(-own) : own);
-        }
         if (candidate.nearest.triangle < 0 || body.rigid()) return;
         Vec3 smooth = Vec3::Zero();
         for (int c = 0; c < 3; ++c)

@@ -9,7 +9,7 @@ namespace tss {
 struct ContactCandidate {
     std::uint32_t vertex = 0; ///< of the skin mesh
     std::uint32_t body = 0;
-    bool inside = false;      ///< the vertex is inside of the body, a muscle, at rest
+    bool inside = false;      ///< the vertex is inside of the body at rest
     bool fromOutside = false; ///< see SkinRow
     NearestPoint nearest;     ///< of the body's surface at rest
 };

@@ -92,3 +92,35 @@ TEST_CASE(
     CHECK(response.update(std::vector<double>{0, 0}, little).pushed > 0.004);
     CHECK(response.update(std::vector<double>{0, 0}, down).pushed == 0);
 }
+
+namespace {
+
+/// How much deeper than at rest the skin is in a ball of radius 0.3 beside it that moves by 0.05 towards it,
+/// in the skin's own plane.
+double deeperInBall(double middle) {
+    constexpr double radius = 0.3, travel = -0.05;
+    const std::vector<Pose> moved{Pose::Identity(), Pose(Eigen::Translation3d(travel, 0, 0))};
+    Pressed pressed(flat(), ballMesh({middle, 0, 0}, radius, 4), 0);
+    pressed.parameters.swings = {BoneSwing{moved}};
+    SkinResponse response(pressed.couple.rig(pressed.parameters));
+    response.update(std::vector<double>{0, 0}, moved);
+    double deepest = 0;
+    for (std::size_t v = 0; v < response.positions().size(); ++v) {
+        const Vec3 &rest = response.rig().rest[v], &now = response.positions()[v];
+        const double before = std::max(radius - (rest - Vec3(middle, 0, 0)).norm(), 0.0);
+        deepest = std::max(deepest, radius - (now - Vec3(middle + travel, 0, 0)).norm() - before);
+    }
+    response.update(std::vector<double>{0, 0});
+    CHECK(skins::exactlyAtRest(response));
+    return deepest;
+}
+
+} // namespace
+
+TEST_CASE("a bone that comes at the rim of a skin edge on presses it back") {
+    CHECK(deeperInBall(1.32) < 0.005);
+}
+
+TEST_CASE("skin that is in a bone at rest goes no deeper into it, whichever way it faces") {
+    CHECK(deeperInBall(1.2) < 0.005);
+}
