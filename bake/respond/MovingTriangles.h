@@ -27,7 +27,8 @@ public:
     struct Group {
         Eigen::AlignedBox3d places, facings, moves; ///< moves: empty where the station alone counts
     };
-    /// Whether nearest() may find a triangle for some point of a group, none of which faces nowhere.
+    /// Whether nearest() may find a triangle for some point of a group. Zero is among the facings where it is
+    /// asked for triangles that face any way.
     bool mayMeet(const Group& group, double reach, bool onlyChanged) const;
 
     /// The nearest triangle, of those whose normal n has n . facing > 0 (zero facing: of all) and, with
