@@ -1,5 +1,6 @@
 #include "bake/respond/SkinContact.h"
 
+#include "bake/respond/SkinClearance.h"
 #include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
@@ -37,26 +38,6 @@ float smoothStep(float t) {
 
 float trustOf(float facing) {
     return smoothStep((facing - leastFacing) / (fullFacing - leastFacing));
-}
-
-/// anchorOffset() as a vector of four with a 0 at the end, for vector instructions.
-inline Move anchorOffset4(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    const auto anchor = [&](const Move* surface) -> Move {
-        return row.weights[0] * surface[row.corners[0]] + row.weights[1] * surface[row.corners[1]] +
-               row.weights[2] * surface[row.corners[2]];
-    };
-    const auto toBody = [&](const Move& x) -> Move {
-        if (!placed.moved) return x;
-        const Vec3f y = placed.toBody(x.head<3>());
-        return {y[0], y[1], y[2], 0};
-    };
-    const Move* skin = scene.skin.data();
-    if (row.kind == SkinContactKind::BodyOnSkin) return scene.surface[row.vertex] - toBody(anchor(skin));
-    if (row.kind == SkinContactKind::SkinOnSkin) return skin[row.vertex] - anchor(skin);
-    const SkinBody& body = rig.bodies[row.body];
-    const Move x = toBody(skin[row.vertex]);
-    return body.bone() ? x : Move(x - anchor(scene.surface.data() + body.first));
 }
 
 /// The direction in which a surface pushes: its smooth normal, blended continuously into the direction of its
@@ -166,8 +147,8 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     const Move* normals = scene.normals.data() + body.first;
     Vec3f smooth =
         smoothNormal(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
-    // Skin in a body may be nearest to its far side, or edge on: the side faced at rest counts too.
-    float trust = trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
+    // nearestOf() has sought what faces the skin; of a muscle the side faced at rest counts too.
+    float trust = body.bone() ? 1.0f : trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
     const Tri& t = body.triangles[hit.triangle];
     const Move* at = scene.surface.data() + body.first;
@@ -192,31 +173,22 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 }
 
 /// The start triangle of a row whose first corner is nearest to a point.
-struct StartTriangle {
-    int triangle = -1;
-    float squared = std::numeric_limits<float>::max(); ///< distance
-};
-
-StartTriangle nearestStart(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
-    StartTriangle nearest;
+int nearestStart(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
+    int nearest = -1;
+    float least = std::numeric_limits<float>::max(); // squared distance
     for (std::uint32_t k = row.first; k < row.last; ++k) {
-        const Tri& t = rig.triangles[rig.starts[k]];
-        const float squared = (x - scene.skin[t[0]].head<3>()).squaredNorm();
-        if (squared < nearest.squared) nearest = {rig.starts[k], squared};
+        const float squared = (x - scene.skin[rig.triangles[rig.starts[k]][0]].head<3>()).squaredNorm();
+        if (squared < least) {
+            least = squared;
+            nearest = rig.starts[k];
+        }
     }
     return nearest;
 }
 
-/// The current position, in the skin's frame, of a row's vertex that is tested against the skin.
-Vec3f vertexPlace(const SkinScene& scene, const SkinRow& row) {
-    if (row.kind == SkinContactKind::SkinOnSkin) return scene.skin[row.vertex].head<3>();
-    return scene.bodies[row.body].toSkin(scene.surface[row.vertex].head<3>());
-}
-
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
     const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
-    const int start = nearestStart(rig, scene, row, x).triangle;
-    return walkDownhill(x, start, rig.triangles, rig.across, at, walkSteps);
+    return walkDownhill(x, nearestStart(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
 }
 
 Vec3f placeAtRest(const SkinRig& rig, const SurfacePoint& hit) {
@@ -313,33 +285,6 @@ SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
 }
 
 } // namespace
-
-Vec3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return anchorOffset4(rig, scene, row).head<3>();
-}
-
-float distanceToStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return std::sqrt(nearestStart(rig, scene, row, vertexPlace(scene, row)).squared);
-}
-
-bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    // For the skin's own surface a fixed bound.
-    const float strain = row.kind == SkinContactKind::SkinOnBody ? placed.strain : 0.25f;
-    const SkinClearance* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : placed.at.node);
-    // Beside the anchor a surface has moved further by its strain, over a distance of at most twice the gap.
-    float free = at->gap() * (1 - 2 * strain);
-    // At rest no constraint is violated, so that a small motion may be ignored; a muscle's activation alone
-    // may violate one.
-    if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
-    if (!(free > 0)) return true;
-    Move expected = at->offsetAndGap;
-    if (!onSkin && placed.at.t != 0)
-        expected += static_cast<float>(placed.at.t) * (at[1].offsetAndGap - expected);
-    const Move change = anchorOffset4(rig, scene, row) - expected; // the fourth component has no meaning
-    return change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free;
-}
 
 SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     switch (row.kind) {

@@ -5,10 +5,6 @@ namespace tss {
 
 /// Run-time length: a vertex that moved by less counts as unmoved.
 constexpr float settled = 1e-5f;
-/// Run-time length: a row that touched nothing is not queried again before its vertex has moved by this much,
-/// so that penetration up to this depth may be missed: 0.03 mm on a head. With a tenth of it a dog's head
-/// takes a fifth longer.
-constexpr float unseen = 1e-4f;
 /// In radii of the skin: a contact first found deeper than this was not entered from outside.
 constexpr float enterDepth = 0.25f;
 
@@ -26,17 +22,6 @@ struct SkinPlane {
         std::numeric_limits<float>::max(); ///< signed distance to the constraint: < 0 where it is violated
     bool found = false; ///< whether there is contact; if not, normal, level, distance and gap mean nothing
 };
-
-/// Offset from a row's anchor to its vertex in the current scene, in the body's frame. For a skin vertex
-/// before a bone, whose anchor never moves in that frame, the vertex itself.
-Eigen::Vector3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
-
-/// Whether the two sides of a row may touch, judged by how far their offset is from that at the same
-/// activation of its muscle with everything else at rest (SkinClearance).
-bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
-
-/// Distance of a row that is not SkinOnBody from the nearest of its start triangles, by their first corners.
-float distanceToStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
 /// The contact constraint of a row in the current scene. It fades out continuously where the surface does not
 /// face the vertex, and beside a rim of the surface. offset: in place of SkinRow::offset.

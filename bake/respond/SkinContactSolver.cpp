@@ -1,8 +1,11 @@
 #include "bake/respond/SkinContactSolver.h"
 
+#include "bake/respond/SkinClearance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace tss {
 namespace {
@@ -11,17 +14,37 @@ namespace {
 /// normals of curved surfaces have changed.
 constexpr int mostRounds = 8;
 
+/// Rounds in a row that leave the planes violated no less: they demand more than the skin can give.
+constexpr int mostStalled = 3;
+
 /// A displacement beyond this many times the deepest violation and the foundation's length counts as
 /// diverged: skin thrown far off touches nothing, so that its residual looks like success.
 constexpr float mostMove = 2;
 
-/// Updates normal, gap and level of a plane by its row's latest query. Its vertices and weights stay, since
-/// it has hardly slid, and so does its push.
+/// Of the foundation's length: where a plane's point has slid along the skin by more, a push at its old place
+/// hardly moves the new one, and the plane is replaced.
+constexpr float mostSlide = 0.25f;
+
+/// Makes a plane one that is never violated. Returns its push.
+float drop(SkinPlane& plane) {
+    plane.gap = std::numeric_limits<float>::max();
+    plane.level = -1e6f;
+    return std::exchange(plane.push, 0.0f);
+}
+
+/// Updates normal, gap and level of a plane by its row's latest query. Its vertices and weights stay, and so
+/// does its push. A plane whose push has moved the two sides just clear of each other stays as it is: without
+/// it they would touch again.
 void updatePlane(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
-    plane.gap = now.found ? now.gap : std::numeric_limits<float>::max();
-    if (now.found) plane.normal = now.normal;
-    plane.level =
-        now.found ? plane.normal.dot(constrainedPoint(scene, plane)) - plane.gap : -1e6f; // never violated
+    if (now.found) {
+        plane.gap = now.gap;
+        plane.normal = now.normal;
+        plane.level = plane.normal.dot(constrainedPoint(scene, plane)) - plane.gap;
+    } else if (plane.push > 0) {
+        plane.gap = 0;
+    } else {
+        drop(plane);
+    }
 }
 
 /// Calls what(vertex) for each skin vertex of a row: its vertex and the corners of its anchor.
@@ -56,8 +79,8 @@ void SkinContactSolver::addSatisfied(const SkinScene& scene, std::uint32_t r, co
     }
     Satisfied& row = satisfied_[satisfiedOf_[r] - 1];
     row.plane = plane;
-    row.free = unseen;
-    if (plane.found)
+    row.free = unseen; // of a vertex in a body another side may be the nearest at once
+    if (plane.found && !rig_.rows[r].insideAtRest)
         row.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
     row.place = constrainedPoint(scene, row.plane);
 }
@@ -123,6 +146,12 @@ std::uint64_t SkinContactSolver::selectionKey(const SkinRow& row, const SkinPlan
     return (node * 3 + static_cast<std::uint64_t>(row.kind)) * rig_.bodies.size() + row.body;
 }
 
+void SkinContactSolver::addPlane(std::uint32_t r, const SkinPlane& plane) {
+    rows_.push_back(r);
+    planes_.push_back(plane);
+    planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+}
+
 /// Makes planes of the deepest violated row of each key. Pushes act through nodes, so that its push satisfies
 /// most of the others too; those left over are queried again in the next round.
 void SkinContactSolver::addDeepest() {
@@ -136,9 +165,7 @@ void SkinContactSolver::addDeepest() {
             isDeferred_[r] = 1;
             continue;
         }
-        rows_.push_back(r);
-        planes_.push_back(violated_[k].plane);
-        planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+        addPlane(r, violated_[k].plane);
     }
     violated_.clear();
 }
@@ -190,10 +217,20 @@ float SkinContactSolver::deepestViolation() const {
 /// violation of the planes.
 float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
     const SkinClock::Scope scope(clock_, SkinPart::Sort);
+    const float slide = mostSlide * static_cast<float>(rig_.foundation.length);
     float lack = 0;
-    for (std::size_t k = 0; k < planes_.size(); ++k) {
-        updatePlane(timedQuery(scene, rig_.rows[rows_[k]]), scene, planes_[k]);
-        lack = std::max(lack, -planes_[k].gap);
+    for (std::size_t k = 0, count = planes_.size(); k < count; ++k) {
+        const std::uint32_t r = rows_[k];
+        if (planeOf_[r] != k + 1) continue; // replaced
+        SkinPlane now = timedQuery(scene, rig_.rows[r]);
+        const bool slid = (constrainedPoint(scene, now) - constrainedPoint(scene, planes_[k])).norm() > slide;
+        if (now.found && now.gap < -settled && slid) {
+            now.push = drop(planes_[k]);
+            addPlane(r, now);
+        } else {
+            updatePlane(now, scene, planes_[k]);
+        }
+        lack = std::max(lack, -planes_[planeOf_[r] - 1].gap);
     }
     for (std::size_t k = 0, count = satisfied_.size(); k < count; ++k) {
         const std::uint32_t r = satisfiedRows_[k];
@@ -227,7 +264,7 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
     if (violated_.empty()) return 0;
     const float deepest = deepestViolation();
     const float mostMoved = mostMove * (deepest + static_cast<float>(rig_.foundation.length));
-    float last = 0, least = std::numeric_limits<float>::max();
+    float last = std::numeric_limits<float>::max(), least = last;
     best_.clear();
     for (int round = 1, stalled = 0;; ++round) {
         std::size_t pushing = 0;
@@ -244,13 +281,11 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
             least = now;
             best_.swap(applied_);
         }
-        // Two rounds without progress: the planes demand more than the skin can give.
         stalled = lack < last ? 0 : stalled + 1;
         last = lack;
-        if (round < mostRounds && (!violated_.empty() || (lack > settled && stalled < 2))) continue;
-        // Where bones press from two sides the last result may be worse than no push: then the best one
-        // counts.
-        return limited(scene, diverged || now > deepest ? apply(scene, best_) : pushing);
+        if (round < mostRounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
+        // Where bones press from two sides the last result may be worse than an earlier one.
+        return limited(scene, diverged || now > least ? apply(scene, best_) : pushing);
     }
 }
 

@@ -50,6 +50,7 @@ private:
     bool displaced(const SkinRow& row) const;
     void findDisplaced(const SkinScene& scene);
     std::uint64_t selectionKey(const SkinRow& row, const SkinPlane& plane) const;
+    void addPlane(std::uint32_t r, const SkinPlane& plane);
     void addDeepest();
     std::size_t apply(SkinScene& scene, std::span<const SkinPlane> planes);
     std::size_t limited(SkinScene& scene, std::size_t pushing);
@@ -63,7 +64,7 @@ private:
     std::vector<SkinPlane> applied_,
         best_;                        ///< planes_ when last applied, and when least was violated after that
     std::vector<std::uint32_t> rows_; ///< row of each of planes_
-    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + its index in planes_, 0: none
+    std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + the index of its latest in planes_, 0: none
     std::vector<Violated> violated_;
     std::vector<Satisfied> satisfied_;
     std::vector<std::uint32_t> satisfiedRows_; ///< row of each of satisfied_

@@ -2,6 +2,7 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
+#include "bake/respond/SkinClearance.h"
 #include "bake/respond/SkinContact.h"
 #include "bake/respond/SkinContactSearch.h"
 
@@ -54,7 +55,7 @@ SkinClearance clearanceOf(const SkinRig& rig, const SkinScene& scene, const Skin
     if (plane.found)
         clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.gap());
     else if (row.kind == SkinContactKind::BodyOnSkin)
-        clearance.gap() = distanceToStarts(rig, scene, row);
+        clearance.gap() = heightOverStarts(rig, scene, row);
     return clearance;
 }
 
@@ -98,7 +99,7 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         row.offset = std::min(plane.distance, 0.0f);
         clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.relative().norm());
     } else if (!body) { // the surface faces another way at rest
-        clearance.gap() = distanceToStarts(rig, scene, row);
+        clearance.gap() = heightOverStarts(rig, scene, row);
     }
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+#include "bake/respond/SkinScene.h"
+
+namespace tss {
+
+/// Run-time length: a row that touched nothing is not queried again before its vertex has moved by this much,
+/// so that penetration up to this depth may be missed: 0.03 mm on a head. With a tenth of it a dog's head
+/// takes a fifth longer.
+constexpr float unseen = 1e-4f;
+
+/// Offset from a row's anchor to its vertex in the current scene, in the body's frame. For a skin vertex
+/// before a bone, whose anchor never moves in that frame, the vertex itself.
+Eigen::Vector3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+/// The current position, in the skin's frame, of a row's vertex that is tested against the skin.
+Eigen::Vector3f vertexPlace(const SkinScene& scene, const SkinRow& row);
+
+/// How far such a vertex is from the nearest of the planes of its start triangles, run-time length.
+float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+/// Whether the two sides of a row may touch, judged by how far the vertex has moved against the anchor since
+/// all else but its muscle's activation was at rest (SkinClearance), and since rest against each further
+/// start triangle.
+bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
+
+} // namespace tss
