@@ -26,28 +26,6 @@ constexpr double holdFall = 0.5, holdReach = 4;
 /// Skin that touches a muscle or is inside of it at rest cannot slide along it: how much firmer it is
 /// attached than other skin, and over which distance, in those lengths, that decays.
 constexpr double touchFirmness = 300, touchFade = 0.03;
-/// Shares below this become 0, so that skin that hardly moves is not touched; others are lowered
-/// continuously.
-constexpr double leastShare = 1e-3;
-
-double withoutLeast(double share) {
-    return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
-}
-
-/// Applies withoutLeast() to all shares of each vertex and to the rest up to 1, which is at rest, and
-/// normalises them.
-void dropLeast(std::vector<std::vector<double>>& shares) {
-    for (std::size_t v = 0; !shares.empty() && v < shares[0].size(); ++v) {
-        double still = 1, sum = 0;
-        for (auto& list : shares) {
-            still -= list[v];
-            sum += list[v] = withoutLeast(list[v]);
-        }
-        sum += withoutLeast(still);
-        for (auto& list : shares) list[v] /= sum;
-    }
-}
-
 /// For each vertex the first one at the same position, if both are on rims of the mesh, as along a seam;
 /// itself otherwise. Vertices of lips that touch are not on rims and stay separate.
 std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {
@@ -224,7 +202,6 @@ SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& p) {
     const auto free = [&](std::size_t v) { return p.tether.empty() ? 1 : 1 - p.tether[v]; };
     SkinAttachment attachment;
     attachment.frames = frameShares(anatomy, p, framesOf(anatomy, p));
-    if (p.shares.empty()) dropLeast(attachment.frames);
     for (auto& list : attachment.frames)
         for (std::size_t v = 0; v < count; ++v) list[v] *= free(v);
 

@@ -20,6 +20,21 @@ constexpr int steepRounds = 3;
 /// A triangle that a motion would shrink below this share of its area, or flip, is made stiffer. The margin
 /// is for muscles and contacts.
 constexpr double leastArea = 0.15;
+/// It is made as stiff as would leave it this share, if all others stayed as they are. Aimed at leastArea
+/// itself, triangles would come ever nearer to that and not get there.
+constexpr double wantedArea = 2 * leastArea;
+/// Shares below this become 0, so that skin that hardly moves is not touched.
+constexpr double leastShare = 1e-3;
+
+/// Applies withoutLeast() to all shares of each vertex, and normalises them.
+std::vector<std::vector<double>> usedShares(std::vector<std::vector<double>> shares) {
+    for (std::size_t v = 0; v < shares[0].size(); ++v) {
+        double sum = 0;
+        for (std::vector<double>& list : shares) sum += list[v] = withoutLeast(list[v]);
+        for (std::vector<double>& list : shares) list[v] /= sum;
+    }
+    return shares;
+}
 
 /// Sets the stiffness of each triangle by the gradients of the shares in it.
 void stiffen(const TriangleMesh& skin, const SkinClaims& claims,
@@ -41,10 +56,12 @@ void stiffen(const TriangleMesh& skin, const SkinClaims& claims,
     }
 }
 
-/// Makes triangles stiffer that a motion shrinks too much or flips. Returns whether there are any.
+/// Makes triangles stiffer that a motion shrinks too much or flips, each by as much as its shares change too
+/// fast: what it loses of its area is in proportion to that. Returns whether there are any.
 bool stiffenFolded(const TriangleMesh& skin, const std::vector<std::vector<double>>& shares,
                    const ShareOptions& options, std::vector<double>& stiffness) {
-    std::vector<char> folded(skin.triangles.size(), 0);
+    // Of each triangle's area what is left at worst, seen along its normal as turned at any of its corners.
+    std::vector<double> left(skin.triangles.size(), 1);
     std::vector<Pose> poses(skin.vertices.size());
     for (const std::vector<DualPose>& motion : options.motions) {
         parallelFor(poses.size(), [&](std::size_t v) {
@@ -53,18 +70,24 @@ bool stiffenFolded(const TriangleMesh& skin, const std::vector<std::vector<doubl
             for (std::size_t h = 0; h < motion.size(); ++h) blend.add(free * shares[h][v], motion[h]);
             poses[v] = blend.pose();
         });
-        for (std::size_t i = 0; i < folded.size(); ++i) {
+        for (std::size_t i = 0; i < left.size(); ++i) {
             const Tri& t = skin.triangles[i];
             Vec3 rest[3], now[3];
             for (int k = 0; k < 3; ++k) now[k] = poses[t[k]] * (rest[k] = skin.vertices[t[k]]);
-            const Vec3 before = poses[t[0]].linear() * (rest[1] - rest[0]).cross(rest[2] - rest[0]),
+            const Vec3 before = (rest[1] - rest[0]).cross(rest[2] - rest[0]),
                        after = (now[1] - now[0]).cross(now[2] - now[0]);
-            if (after.dot(before) < leastArea * before.squaredNorm()) folded[i] = 1;
+            const double squared = before.squaredNorm();
+            for (int k = 0; k < 3 && squared > 0; ++k)
+                left[i] = std::min(left[i], after.dot(poses[t[k]].linear() * before) / squared);
         }
     }
-    for (std::size_t i = 0; i < folded.size(); ++i)
-        if (folded[i]) stiffness[i] *= options.stiffening;
-    return std::find(folded.begin(), folded.end(), 1) != folded.end();
+    bool any = false;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        if (left[i] >= leastArea) continue;
+        stiffness[i] *= (1 - left[i]) / (1 - wantedArea);
+        any = true;
+    }
+    return any;
 }
 
 /// Solves for the shares from the claims. Shells bound in different rounds are not connected: each round is a
@@ -130,6 +153,10 @@ private:
 
 } // namespace
 
+double withoutLeast(double share) {
+    return share > leastShare ? (share - leastShare) / (1 - leastShare) : 0;
+}
+
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
                                                const std::vector<SkinInfluence>& influences,
                                                const ShareOptions& options) {
@@ -144,9 +171,12 @@ std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const S
         stiffen(skin, claims, shares, stiffness);
         solver.solve(stiffness, shares);
     }
-    for (int round = 0; round < options.maxRounds && stiffenFolded(skin, shares, options, stiffness); ++round)
+    std::vector<std::vector<double>> used = usedShares(shares);
+    for (int round = 0; round < options.maxRounds && stiffenFolded(skin, used, options, stiffness); ++round) {
         solver.solve(stiffness, shares);
-    return shares;
+        used = usedShares(shares);
+    }
+    return used;
 }
 
 void unfoldShares(const TriangleMesh& skin, const SkinGraph& graph, double reach, const ShareOptions& options,

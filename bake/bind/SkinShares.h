@@ -10,9 +10,8 @@ struct ShareOptions {
     std::vector<std::vector<DualPose>> motions; ///< since rest, each of the first influences; others rest
     std::span<const double> tether;             ///< #V in [0,1], see SkinParameters; empty: 0
     bool keepSigns = false;                     ///< see PoseBlend
-    int maxRounds = 16;      ///< at most so many further solves; before each, triangles that a motion would
-                             ///< fold are made stiffer
-    double stiffening = 1.2; ///< by this factor; a small one changes little of the skin around
+    int maxRounds = 32; ///< at most so many further solves; before each, triangles that a motion would fold
+                        ///< are made stiffer
 };
 
 /// Skinning weights (METHOD 6.3): #influences of #V, >= 0, sum 1 at each vertex. The nearest bone does not
@@ -22,6 +21,10 @@ struct ShareOptions {
 std::vector<std::vector<double>> claimedShares(const TriangleMesh& skin, const SkinGraph& graph,
                                                const std::vector<SkinInfluence>& influences,
                                                const ShareOptions& options = {});
+
+/// A share without what is too little to move skin by: those below a thousandth become 0, others are lowered
+/// continuously. share: in [0, 1].
+double withoutLeast(double share);
 
 /// Smooths given shares where a motion would fold the skin, and nowhere else, over `reach` and more, > 0,
 /// scene units.

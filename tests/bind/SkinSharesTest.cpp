@@ -53,3 +53,33 @@ TEST_CASE("around the corner of a mouth shares change slowly, the more so the la
     CHECK(steepest(20) == Approx(0.32).margin(0.01)); // 0.33 by the claims alone
     CHECK(steepest(80) == Approx(0.235).margin(0.02));
 }
+
+TEST_CASE(
+    "skin between two bones that come together by far more than there is between them is not turned over") {
+    const int n = 30;
+    const TriangleMesh skin = slitSheet(n);
+    std::vector<SkinInfluence> influences(2);
+    for (const Vec3& p : skin.vertices) {
+        influences[0].distance.push_back(p.x() < -1 ? 1 : 40);
+        influences[1].distance.push_back(p.x() > 1 ? 1 : 40);
+    }
+    for (SkinInfluence& influence : influences) influence.size = 30;
+    for (const double closing : {4.0, 8.0, 16.0}) {
+        ShareOptions options;
+        const Pose moved(Eigen::Translation3d(-closing, 0, 0));
+        options.motions = {{DualPose(), DualPose(moved)}};
+        const std::vector<double> share = claimedShares(skin, skinGraph(skin), influences, options)[1];
+        int turnedOver = 0;
+        for (const Tri& t : skin.triangles) {
+            const auto at = [&](int k) -> Vec3 {
+                return skin.vertices[t[k]] - closing * share[t[k]] * Vec3::UnitX();
+            };
+            turnedOver += (at(1) - at(0)).cross(at(2) - at(0)).z() <= 0;
+        }
+        INFO("by " << closing);
+        CHECK(turnedOver == 0);
+        for (std::size_t v = 0; v < share.size(); ++v) // no more of it gives way than needs to
+            if (std::abs(skin.vertices[v].x()) > 1.5 * closing)
+                CHECK(share[v] == Approx(skin.vertices[v].x() > 0).margin(0.02));
+    }
+}
