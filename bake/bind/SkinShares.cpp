@@ -31,7 +31,8 @@ std::vector<std::vector<double>> usedShares(std::vector<std::vector<double>> sha
     for (std::size_t v = 0; v < shares[0].size(); ++v) {
         double sum = 0;
         for (std::vector<double>& list : shares) sum += list[v] = withoutLeast(list[v]);
-        for (std::vector<double>& list : shares) list[v] /= sum;
+        for (std::vector<double>& list : shares)
+            if (sum > 0) list[v] /= sum;
     }
     return shares;
 }
