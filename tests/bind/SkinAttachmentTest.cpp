@@ -32,13 +32,16 @@ std::shared_ptr<const MuscleDeformer> muscleOf(TriangleMesh surface) {
     return std::make_shared<const MuscleDeformer>(std::move(muscle));
 }
 
-/// How much the sheet goes with a muscle at (0, 0), (1, 0) and so on to (40, 0).
-std::vector<double> sharesOver(const TriangleMesh& surface) {
+SkinAttachment attachmentOver(const TriangleMesh& surface) {
     const TriangleMesh skin = sheet();
     const std::vector<std::shared_ptr<const MuscleDeformer>> bodies{muscleOf(surface)};
     const SkinParameters parameters;
-    const SkinAnatomy anatomy(skin, bodies, parameters);
-    const SkinAttachment attachment = attachSkin(anatomy, parameters);
+    return attachSkin(SkinAnatomy(skin, bodies, parameters), parameters);
+}
+
+/// How much the sheet goes with a muscle at (0, 0), (1, 0) and so on to (40, 0).
+std::vector<double> sharesOver(const TriangleMesh& surface) {
+    const SkinAttachment attachment = attachmentOver(surface);
     std::vector<double> shares;
     for (int x = 0; x <= 40; ++x) shares.push_back(attachment.muscles[0][40 * 81 + 40 + x]);
     return shares;
@@ -54,4 +57,16 @@ TEST_CASE("a muscle holds the skin over it through its tissue, hardly any beside
     CHECK(shares[13] < 0.15);
     CHECK(sharesOver(boxMesh({-10, -10, -9}, {10, 10, -5}))[0] > 0.99); // 3.5 lengths below
     CHECK(sharesOver(boxMesh({-10, -10, -12}, {10, 10, -8}))[0] == 0);  // 5.7 lengths below
+}
+
+TEST_CASE(
+    "skin that touches a muscle is held firmly, a thirtieth of the foundation's length above it much less") {
+    // That is 0.047 of this skin's length of 1.41.
+    const auto firmnessAt = [](double gap) {
+        return attachmentOver(boxMesh({-10, -10, -6}, {10, 10, -gap})).firmness[40 * 81 + 40];
+    };
+    CHECK(firmnessAt(0.001) > 250);
+    CHECK(firmnessAt(0.047) > 70);
+    CHECK(firmnessAt(0.047) < 140);
+    CHECK(firmnessAt(0.47) < 1.1);
 }

@@ -83,3 +83,33 @@ TEST_CASE(
                 CHECK(share[v] == Approx(skin.vertices[v].x() > 0).margin(0.02));
     }
 }
+
+TEST_CASE("a claim fades fast towards where two meet") {
+    const int n = 20;
+    const TriangleMesh skin = slitSheet(n);
+    const auto at = [&](int x) { return static_cast<std::size_t>((10 + n) * (2 * n + 1) + x + n); }; // y = 10
+    std::vector<SkinInfluence> influences(2);
+    for (const Vec3& p : skin.vertices) {
+        influences[0].distance.push_back(p.x() < -10 ? 1 : 40);
+        influences[1].distance.push_back(p.x() > 10 ? 1 : 40);
+    }
+    for (SkinInfluence& influence : influences) influence.size = 20;
+    const SkinClaims claims = claimSkin(skin, skinGraph(skin), influences);
+    CHECK(claims.influence[at(-9)] == 0);
+    CHECK(claims.influence[at(5)] == 1);
+    // At 9 the seeds are 2 and 20 away along the skin, at 5 these are 6 and 16.
+    CHECK(claims.weight[at(5)] / claims.weight[at(-9)] == Approx(0.009).epsilon(0.1));
+}
+
+TEST_CASE("neither a sliver nor a vertex without triangles upsets a system over the skin") {
+    TriangleMesh skin{{{0, 0, 0}, {1, 0, 0}, {0, 100, 0}, {0, 1, 0}, {9, 9, 9}}, {{0, 1, 3}, {0, 2, 1}}};
+    SparseMatrix laplacian = skinLaplacian({skin.vertices, {skin.triangles[1]}});
+    CHECK(laplacian.coeff(0, 1) ==
+          Approx(-10)); // across a needle of 0.6 degrees, half of whose cotangent is 50
+    skin.vertices[2] = {0, 10, 0};
+    laplacian = skinLaplacian({skin.vertices, {skin.triangles[1]}});
+    CHECK(laplacian.coeff(0, 1) == Approx(-5)); // 5.7 degrees: as it is
+    const SkinGraph graph = skinGraph({skin.vertices, {skin.triangles[0]}});
+    CHECK(graph.area[4] > 0.0006); // of 0.1 a vertex
+    CHECK(graph.area[4] < 0.0018);
+}
