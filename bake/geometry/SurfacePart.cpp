@@ -4,11 +4,21 @@
 
 namespace tss {
 
+namespace {
+
+/// The squared length, added up in this order whatever Eigen does: of edges that are equal but for rounding,
+/// as those of any right triangle soon are, it decides which is cut, and files say so (tss:restCuts0).
+double squaredLength(const Vec3& edge) {
+    return edge.x() * edge.x() + edge.y() * edge.y() + edge.z() * edge.z();
+}
+
+} // namespace
+
 std::array<Corners, 2> halves(const Corners& corners) {
     std::size_t longest = 0;
     double best = -1;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length2 = (corners[(k + 1) % 3] - corners[k]).squaredNorm();
+        const double length2 = squaredLength(corners[(k + 1) % 3] - corners[k]);
         if (length2 > best) {
             best = length2;
             longest = k;

@@ -8,7 +8,7 @@
 namespace tss {
 
 /// Cuts the longest edge in half, the first of equal ones: (a, middle, c) and (middle, b, c), where the edge
-/// runs from a to b and c is the corner opposite.
+/// runs from a to b and c is the corner opposite. Edges are compared by (x^2 + y^2) + z^2 in double.
 std::array<Corners, 2> halves(const Corners& corners);
 
 /// A part of a triangle of a mesh: its longest edge cut in half again and again. Plain data, as files hold

@@ -22,8 +22,10 @@ constexpr Attribute restParts[2][2] = {
               "as the triangles they are cut into) and how it is cut"),
      declared("uniform int[] tss:restCuts0",
               "how each part of body 0 is cut: 1 the whole; each further binary digit halves the longest "
-              "edge (the first of equal ones) and takes half 0, with the first corner of that edge, or half "
-              "1; of a leftHanded mesh the second and third corners count as exchanged. Sorted, none in "
+              "edge and takes half 0 or 1; where that edge goes from corner a to b, with middle m and c "
+              "opposite, their corners are a, m, c and m, b, c, in this order. Of edges ab, bc, ca the first "
+              "of equal ones, by (x*x + y*y) + z*z of the difference in double, as rounding tells equal ones "
+              "apart; of a leftHanded mesh the second and third corners count as exchanged. Sorted, none in "
               "another; absent: none")},
     {declared("uniform int[] tss:restTriangles1", "the same of body 1"),
      declared("uniform int[] tss:restCuts1", "the same of body 1")}};

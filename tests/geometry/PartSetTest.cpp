@@ -22,6 +22,15 @@ TEST_CASE("halves of a part become the whole again, and parts in others vanish")
     CHECK_FALSE(set.reaches({2, 1}));
 }
 
+TEST_CASE("of edges that are equal but for rounding the one is cut that the file format says") {
+    // (x, y, z) and (z, y, x) are equally long; summed as (x^2 + y^2) + z^2 the first comes out longer,
+    // summed from the right the second does.
+    const double x = 0.017f, y = 0.724f, z = 0.115f;
+    const Vec3 a(0, 0, 0), b(x, y, z), c(z, y, x);
+    const Vec3 middle = 0.5 * (a + b);
+    CHECK(halves(Corners{a, b, c}) == std::array{Corners{a, middle, c}, Corners{middle, b, c}});
+}
+
 TEST_CASE("merged parts are the same surface") {
     std::mt19937_64 random(3);
     const TriangleMesh mesh = lumpyMesh(random, 1, 0.3);
