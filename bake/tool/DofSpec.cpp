@@ -189,9 +189,5 @@ double toUser(const Dof& dof, double q) {
 double fromUser(const Dof& dof, double value) {
     return dof.kind == DofKind::Rotation ? value * degree : value;
 }
-std::vector<double> fromUser(const std::vector<Dof>& dofs, std::vector<double> values) {
-    for (std::size_t k = 0; k < dofs.size(); ++k) values[k] = fromUser(dofs[k], values[k]);
-    return values;
-}
 
 } // namespace tss::tool

@@ -38,7 +38,5 @@ double parseUnit(const std::string& text, const std::string& option);
 /// Values of a DOF as people write them: degrees for rotations, else as they are.
 double toUser(const Dof& dof, double q);
 double fromUser(const Dof& dof, double value);
-/// The same for a list of DOFs, one value each.
-std::vector<double> fromUser(const std::vector<Dof>& dofs, std::vector<double> values);
 
 } // namespace tss::tool
