@@ -79,9 +79,12 @@ void SkinContactSolver::addSatisfied(const SkinScene& scene, std::uint32_t r, co
     }
     Satisfied& row = satisfied_[satisfiedOf_[r] - 1];
     row.plane = plane;
-    row.free = unseen; // of a vertex in a body another side may be the nearest at once
-    if (plane.found && !rig_.rows[r].insideAtRest)
-        row.free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
+    row.free = unseen;
+    if (plane.found) {
+        const float clear = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
+        // Of a vertex in a body another side may be the nearest at once.
+        row.free = rig_.rows[r].insideAtRest ? std::min(clear, unseen) : clear;
+    }
     row.place = constrainedPoint(scene, row.plane);
 }
 
