@@ -77,7 +77,8 @@ void fillPlane(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, 
     plane.gap = distance - offset;
     // With less trust the constraint is weaker, so that contacts appear and vanish continuously.
     plane.gap += (1 - trust) * (std::max(-plane.gap, 0.0f) + rig.radius);
-    plane.level = plane.normal.dot(constrainedPoint(scene, plane)) - plane.gap;
+    plane.place = constrainedPoint(scene, plane);
+    plane.level = plane.normal.dot(plane.place) - plane.gap;
     plane.found = trust > 0;
 }
 

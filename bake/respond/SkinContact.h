@@ -15,6 +15,7 @@ struct SkinPlane {
     float weight[4] = {0, 0, 0, 0};
     int vertices = 0; ///< how many of the four are used
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+    Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< of the point that it constrains, when it was found
     float level = 0;
     float distance = 0; ///< signed distance of the vertex from the surface, comparable to SkinRow::offset
     float push = 0;     ///< >= 0, the force along the normal (Lagrange multiplier)

@@ -22,7 +22,8 @@ constexpr int mostStalled = 3;
 constexpr float mostMove = 2;
 
 /// Of the foundation's length: where a plane's point has slid along the skin by more, a push at its old place
-/// hardly moves the new one, and the plane is replaced.
+/// hardly moves the new one, and the plane is replaced; and it tells nothing of what is met so far from where
+/// it was found.
 constexpr float mostSlide = 0.25f;
 
 /// Makes a plane one that is never violated. Returns its push.
@@ -33,14 +34,16 @@ float drop(SkinPlane& plane) {
 }
 
 /// Updates normal, gap and level of a plane by its row's latest query. Its vertices and weights stay, and so
-/// does its push. A plane whose push has moved the two sides just clear of each other stays as it is: without
-/// it they would touch again.
-void updatePlane(const SkinPlane& now, const SkinScene& scene, SkinPlane& plane) {
+/// does its push. A plane whose push has moved the two sides just clear of each other stays as it is, but for
+/// where they have slid by `slide` since: without it they would touch again.
+void updatePlane(const SkinPlane& now, const SkinScene& scene, float slide, SkinPlane& plane) {
+    const Eigen::Vector3f place = constrainedPoint(scene, plane);
     if (now.found) {
         plane.gap = now.gap;
         plane.normal = now.normal;
-        plane.level = plane.normal.dot(constrainedPoint(scene, plane)) - plane.gap;
-    } else if (plane.push > 0) {
+        plane.place = place;
+        plane.level = plane.normal.dot(place) - plane.gap;
+    } else if (plane.push > 0 && (place - plane.place).norm() < slide) {
         plane.gap = 0;
     } else {
         drop(plane);
@@ -226,12 +229,12 @@ float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
         const std::uint32_t r = rows_[k];
         if (planeOf_[r] != k + 1) continue; // replaced
         SkinPlane now = timedQuery(scene, rig_.rows[r]);
-        const bool slid = (constrainedPoint(scene, now) - constrainedPoint(scene, planes_[k])).norm() > slide;
-        if (now.found && now.gap < -settled && slid) {
+        const auto slid = [&] { return (now.place - constrainedPoint(scene, planes_[k])).norm() > slide; };
+        if (now.found && now.gap < -settled && slid()) {
             now.push = drop(planes_[k]);
             addPlane(r, now);
         } else {
-            updatePlane(now, scene, planes_[k]);
+            updatePlane(now, scene, slide, planes_[k]);
         }
         lack = std::max(lack, -planes_[planeOf_[r] - 1].gap);
     }

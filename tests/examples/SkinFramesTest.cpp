@@ -15,16 +15,16 @@ using namespace tss;
 
 namespace {
 
-/// An animated scene with one skin, and what the skin is asked at each time code.
+/// An animated scene with one skin, and what the skin is asked at time codes that are `apart`.
 struct Played {
-    explicit Played(const std::string& file)
+    explicit Played(const std::string& file, double apart = 1)
         : scene(loadScene(std::string(OSGTSS_SOURCE_DIR) + "/scenes/" + file)),
           response(skinRig(scene, scene.skins.at(0))) {
         SceneModel joints = scene;
         joints.skins.clear();
         std::vector<std::string> warnings;
         Player player(joints, warnings);
-        for (double time = scene.startTimeCode; time <= scene.endTimeCode; ++time) {
+        for (double time = scene.startTimeCode; time <= scene.endTimeCode; time += apart) {
             const std::vector<double> values = player.step(drivenValues(scene, time), time).values;
             poses.push_back(skinPoses(scene, scene.skins[0], posedBodies(scene, values)));
             poses.back().resize(response.rig().bodies.size(), Pose::Identity());
@@ -80,7 +80,7 @@ TEST_CASE("what contacts have moved is seen wherever it has come to") {
          << " mm, " << lips.rows << " rows");
     CHECK(head.mean < 0.01);
     CHECK(head.rows < 4);
-    CHECK(lips.mean < 0.008);
+    CHECK(lips.mean < 0.01);
     CHECK(lips.rows == 0);
 }
 
@@ -96,6 +96,21 @@ TEST_CASE("no animated skin gets deeper into bones and muscles than it is at res
         INFO(file);
         CHECK(deepest < 0.05);
     }
+}
+
+TEST_CASE("skin over an ear that turns slowly does not jump") {
+    // A push that was kept however far its skin had slid since made it 2.6 mm.
+    Played ears("dog_ears_baked.tss", 0.05);
+    double farthest = 0; // millimetres, of the steps of a twentieth of a time code
+    std::vector<Vec3> before(ears.response.rig().rest);
+    for (std::size_t step = 0; step < ears.poses.size(); ++step) {
+        ears.response.update(ears.activations[step], ears.poses[step]);
+        const auto places = ears.response.positions();
+        for (std::size_t v = 0; v < before.size(); ++v)
+            farthest = std::max(farthest, (places[v] - before[v]).norm());
+        before.assign(places.begin(), places.end());
+    }
+    CHECK(farthest < 1.2);
 }
 
 TEST_CASE("an animated skin stands the same wherever it comes from") {
