@@ -26,6 +26,7 @@ constexpr double holdFall = 0.5, holdReach = 4;
 /// Skin that touches a muscle or is inside of it at rest cannot slide along it: how much firmer it is
 /// attached than other skin, and over which distance, in those lengths, that decays.
 constexpr double touchFirmness = 300, touchFade = 0.03;
+
 /// For each vertex the first one at the same position, if both are on rims of the mesh, as along a seam;
 /// itself otherwise. Vertices of lips that touch are not on rims and stay separate.
 std::vector<std::uint32_t> firstAtPlace(const TriangleMesh& mesh) {

@@ -18,7 +18,8 @@ Vec3f constrainedPoint(const SkinScene& scene, const SkinPlane& plane) {
 
 namespace {
 
-/// Cosine of the angle between both surfaces' normals, brought to the same side: below leastFacing a contact
+/// Cosine of the angle between both surfaces' normals, brought to the same side (but of skin before a bone,
+/// for which only surfaces that face it are sought): below leastFacing a contact
 /// does not count, from fullFacing on fully. Beyond 84 degrees the surface found may be the far side of the
 /// body.
 constexpr float leastFacing = 0.1f, fullFacing = 0.5f;

@@ -25,7 +25,8 @@ struct SkinPlane {
 };
 
 /// The contact constraint of a row in the current scene. It fades out continuously where the surface does not
-/// face the vertex, and beside a rim of the surface. offset: in place of SkinRow::offset.
+/// face the vertex (of a bone before skin: only a surface that faces it is found), and beside a rim of the
+/// surface. offset: in place of SkinRow::offset.
 SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset);
 inline SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     return queryContact(rig, scene, row, row.offset);
