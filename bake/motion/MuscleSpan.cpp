@@ -109,9 +109,14 @@ double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3
     return factor;
 }
 
-std::vector<Vec3> verticesBetween(const MuscleDeformer& muscle, double activation, const Pose& far) {
-    std::vector<Vec3> places = muscle.vertices(activation);
-    if (muscle.muscle().spans && !isIdentity(far)) MuscleSpan(muscle).carry(far, places);
+MuscleShape::MuscleShape(const MuscleDeformer& muscle) : muscle_(&muscle) {
+    if (muscle.muscle().spans && !muscle.surfacePoints().empty())
+        span_ = std::make_shared<const MuscleSpan>(muscle);
+}
+
+std::vector<Vec3> MuscleShape::vertices(double activation, const Pose& far) const {
+    std::vector<Vec3> places = muscle_->vertices(activation);
+    if (span_) span_->carry(far, places);
     return places;
 }
 

@@ -2,6 +2,7 @@
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/PoseBlend.h"
 
+#include <memory>
 #include <span>
 
 namespace tss {
@@ -39,8 +40,19 @@ private:
     double slope_ = 0; ///< derivative of six times the volume by the factor on swelling_, at rest
 };
 
-/// The vertices of a muscle, in the frame of its origin's bone. far: see MuscleSpan::carry(); of a muscle
-/// that does not span, nothing.
-std::vector<Vec3> verticesBetween(const MuscleDeformer& muscle, double activation, const Pose& far);
+/// The shape of a muscle at any activation, wherever its bones are.
+class MuscleShape {
+public:
+    /// Keeps a reference to the muscle.
+    explicit MuscleShape(const MuscleDeformer& muscle);
+
+    /// In the frame of its origin's bone. far: see MuscleSpan::carry(); of a muscle that does not span,
+    /// nothing.
+    std::vector<Vec3> vertices(double activation, const Pose& far) const;
+
+private:
+    const MuscleDeformer* muscle_;
+    std::shared_ptr<const MuscleSpan> span_; ///< null for one that does not span
+};
 
 } // namespace tss

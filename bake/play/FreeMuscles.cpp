@@ -1,7 +1,6 @@
 #include "bake/play/FreeMuscles.h"
 
 #include "bake/base/Error.h"
-#include "bake/motion/MuscleSpan.h"
 #include "bake/play/MuscleWays.h"
 #include "bake/play/SkinSetup.h"
 
@@ -20,7 +19,8 @@ FreeMuscles::FreeMuscles(const SceneModel& scene, std::vector<std::string>& warn
         const MuscleModel& model = scene.muscles[m];
         if (underSomeSkin(scene, m)) continue;
         try {
-            items_.push_back({&model, std::make_shared<const MuscleDeformer>(muscleOf(scene, model)), 0});
+            auto deformer = std::make_shared<const MuscleDeformer>(muscleOf(scene, model));
+            items_.push_back({&model, deformer, MuscleShape(*deformer), 0});
         } catch (const InputError& error) {
             warnings.push_back(model.path + " does not play: " + error.message);
         }
@@ -37,8 +37,7 @@ void FreeMuscles::pose(std::vector<TriangleMesh>& meshes, std::vector<Pose>& pla
         const MuscleModel& model = *item.model;
         const bool between = model.bone >= 0 && model.insertionBone >= 0;
         const Pose far = between ? insertionMotion(scene_, model, now) : Pose::Identity();
-        if (!item.deformer->rigid())
-            meshes[model.body].vertices = verticesBetween(*item.deformer, item.activation, far);
+        if (!item.deformer->rigid()) meshes[model.body].vertices = item.shape.vertices(item.activation, far);
         if (model.bone < 0) continue;
         // It goes with its bone, whatever its own prim does.
         const Pose &bone = scene_.bodies[model.bone].placement, &body = scene_.bodies[model.body].placement;

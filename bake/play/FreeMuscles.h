@@ -1,12 +1,11 @@
 #pragma once
 #include "bake/model/SceneModel.h"
+#include "bake/motion/MuscleSpan.h"
 
 #include <memory>
 #include <string>
 
 namespace tss {
-
-class MuscleDeformer;
 
 /// The muscles of a scene that lie under no skin, in motion: each with its bone, or between its two.
 class FreeMuscles {
@@ -24,6 +23,7 @@ private:
     struct Item {
         const MuscleModel* model;
         std::shared_ptr<const MuscleDeformer> deformer;
+        MuscleShape shape; ///< of the deformer
         double activation;
     };
     const SceneModel& scene_;

@@ -32,6 +32,7 @@ struct Player::State {
         std::vector<Pose> poses;        ///< of the muscles' bones since rest; empty: none moves
         std::vector<double> restDepths; ///< one a touched vertex
         SkinFollowMeasure follow;
+        DepthMemory depths; ///< of the response's positions
     };
 
     /// The values asked for, within the limits.
@@ -75,7 +76,8 @@ Player::State::State(const SceneModel& scene, std::vector<std::string>& warnings
                          resting,
                          {},
                          below.at(resting, {}).depths(rig->rest),
-                         SkinFollowMeasure(scene.bodies[skin.body].mesh, below.muscles(), *rig)});
+                         SkinFollowMeasure(scene.bodies[skin.body].mesh, below.muscles(), *rig),
+                         {}});
     }
 }
 
@@ -143,8 +145,8 @@ Player::Step Player::step(const std::vector<double>& asked, double timeCode) {
         const double skinBegan = threadSeconds();
         result.pushed.push_back(skin.response.update(skin.activations, skin.poses).pushed);
         result.skinSeconds.push_back(threadSeconds() - skinBegan);
-        const std::vector<double> now =
-            skin.below.at(skin.activations, skin.poses).depths(skin.response.positions());
+        const std::vector<double> now = skin.below.at(skin.activations, skin.poses, skin.depths)
+                                            .depths(skin.response.positions(), &skin.depths);
         double worst = 0;
         for (std::size_t i = 0; i < now.size(); ++i) worst = std::max(worst, now[i] - skin.restDepths[i]);
         result.residualDepths.push_back(worst);

@@ -57,8 +57,8 @@ TEST_CASE("a muscle over two joints goes on where they turn its bones by more th
     CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
     const MuscleDeformer muscle(muscleOf(scene, scene.muscles[0]));
     const auto at = [&](double angle) {
-        return verticesBetween(
-            muscle, 0.5,
+        return MuscleShape(muscle).vertices(
+            0.5,
             insertionMotion(scene, scene.muscles[0], posedBodies(scene, std::vector<double>{angle, angle})));
     };
     std::vector<Vec3> before = at(0);

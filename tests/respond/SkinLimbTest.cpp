@@ -121,7 +121,8 @@ struct FleshyLimb {
         std::vector<double> all;
         const TriangleMesh now{skins::places({skin, {}, {}}, response), skin.triangles};
         for (std::size_t m = 2; m < bodies.size(); ++m)
-            for (const double depth : skins::poking(verticesBetween(*bodies[m], 0, bent(degrees)), now, 1))
+            for (const double depth :
+                 skins::poking(MuscleShape(*bodies[m]).vertices(0, bent(degrees)), now, 1))
                 all.push_back(depth);
         return all;
     }
