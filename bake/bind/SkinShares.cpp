@@ -57,30 +57,54 @@ void stiffen(const TriangleMesh& skin, const SkinClaims& claims,
     }
 }
 
+/// Which triangles any motion may bend: of the others all corners go with one and the same influence.
+std::vector<std::uint32_t> bendable(const TriangleMesh& skin, const std::vector<std::vector<double>>& shares,
+                                    std::span<const double> tether) {
+    constexpr double whole = 1 - 1e-9;
+    std::vector<std::size_t> wholly(shares[0].size(), shares.size()); // of each vertex, if any
+    for (std::size_t h = 0; h < shares.size(); ++h)
+        for (std::size_t v = 0; v < wholly.size(); ++v)
+            if (shares[h][v] > whole && (tether.empty() || tether[v] == 0)) wholly[v] = h;
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
+        const Tri& t = skin.triangles[i];
+        if (wholly[t[0]] == shares.size() || wholly[t[0]] != wholly[t[1]] || wholly[t[0]] != wholly[t[2]])
+            result.push_back(i);
+    }
+    return result;
+}
+
 /// Makes triangles stiffer that a motion shrinks too much or flips, each by as much as its shares change too
 /// fast: what it loses of its area is in proportion to that. Returns whether there are any.
 bool stiffenFolded(const TriangleMesh& skin, const std::vector<std::vector<double>>& shares,
                    const ShareOptions& options, std::vector<double>& stiffness) {
+    const std::vector<std::uint32_t> triangles = bendable(skin, shares, options.tether);
+    std::vector<char> bends(skin.vertices.size(), 0);
+    for (const std::uint32_t i : triangles)
+        for (const int v : skin.triangles[i]) bends[v] = 1;
     // Of each triangle's area what is left at worst, seen along its normal as turned at any of its corners.
     std::vector<double> left(skin.triangles.size(), 1);
     std::vector<Pose> poses(skin.vertices.size());
     for (const std::vector<DualPose>& motion : options.motions) {
         parallelFor(poses.size(), [&](std::size_t v) {
+            if (!bends[v]) return;
             const double free = options.tether.empty() ? 1 : 1 - options.tether[v];
             PoseBlend blend(options.keepSigns);
-            for (std::size_t h = 0; h < motion.size(); ++h) blend.add(free * shares[h][v], motion[h]);
+            for (std::size_t h = 0; h < motion.size(); ++h)
+                if (shares[h][v] > 0) blend.add(free * shares[h][v], motion[h]);
             poses[v] = blend.pose();
         });
-        for (std::size_t i = 0; i < left.size(); ++i) {
+        parallelFor(triangles.size(), [&](std::size_t k) {
+            const std::uint32_t i = triangles[k];
             const Tri& t = skin.triangles[i];
             Vec3 rest[3], now[3];
-            for (int k = 0; k < 3; ++k) now[k] = poses[t[k]] * (rest[k] = skin.vertices[t[k]]);
+            for (int c = 0; c < 3; ++c) now[c] = poses[t[c]] * (rest[c] = skin.vertices[t[c]]);
             const Vec3 before = (rest[1] - rest[0]).cross(rest[2] - rest[0]),
                        after = (now[1] - now[0]).cross(now[2] - now[0]);
             const double squared = before.squaredNorm();
-            for (int k = 0; k < 3 && squared > 0; ++k)
-                left[i] = std::min(left[i], after.dot(poses[t[k]].linear() * before) / squared);
-        }
+            for (int c = 0; c < 3 && squared > 0; ++c)
+                left[i] = std::min(left[i], after.dot(poses[t[c]].linear() * before) / squared);
+        });
     }
     bool any = false;
     for (std::size_t i = 0; i < left.size(); ++i) {
@@ -118,14 +142,14 @@ public:
             system.setFromTriplets(entries.begin(), entries.end());
             if (round.solver.rows() != size) round.solver.analyzePattern(system);
             round.solver.factorize(system);
-            for (std::size_t h = 0; h < shares.size(); ++h) {
+            parallelFor(shares.size(), [&, &round = round](std::size_t h) {
                 Eigen::VectorXd right(size);
                 for (const std::uint32_t v : round.vertices)
                     right[place_[v]] = claims_.weight[v] * claimed(shares, h, v);
                 const Eigen::VectorXd solved = round.solver.solve(right);
                 for (const std::uint32_t v : round.vertices)
                     shares[h][v] = std::clamp(solved[place_[v]], 0.0, 1.0);
-            }
+            });
         }
     }
 
