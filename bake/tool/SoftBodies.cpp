@@ -189,11 +189,19 @@ private:
         for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
             const double percent = 100 * static_cast<double>(std::ranges::count(nearestBone, k)) /
                                    static_cast<double>(vertices.size());
-            if (roots[k] != roots[model.bone] && k != model.insertionBone && percent > most)
+            if (roots[k] == roots[model.bone] || k == model.insertionBone || !(percent > most)) continue;
+            const std::string &bone = robot_.links[k].name, &from = robot_.links[model.bone].name;
+            if (model.insertionBone < 0)
                 note(
                     fmt::format("{:.0f} % of the muscle {} lie nearer to {} than to {}, which it moves with: "
                                 "where the two move against each other it pushes the skin of the other",
-                                percent, name, robot_.links[k].name, robot_.links[model.bone].name));
+                                percent, name, bone, from));
+            else
+                note(fmt::format(
+                    "{:.0f} % of the muscle {} lie nearer to {} than to {} or {}, whose motions it "
+                    "mixes: where a joint bends it leaves {}; it stays beside it with from={} or "
+                    "to={}",
+                    percent, name, bone, from, robot_.links[model.insertionBone].name, bone, bone, bone));
         }
     }
 
