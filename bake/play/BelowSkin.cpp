@@ -37,7 +37,6 @@ double farthestMove(const Solid& from, const Solid& to) {
 void renew(DepthMemory::Shape& memory, const std::shared_ptr<const Solid>& solid, std::size_t points) {
     if (memory.solid == solid && memory.sides.size() == points) return;
     const double moved = memory.solid ? farthestMove(*memory.solid, *solid) : infinity;
-    if (!(moved < infinity)) memory.sides.clear();
     memory.sides.resize(points);
     for (DepthMemory::Side& side : memory.sides) side.free -= moved;
     memory.solid = solid;
