@@ -54,7 +54,7 @@ private:
         try {
             text = readOther_(name);
         } catch (const InputError& error) {
-            throw InputError(placeOf(file_, element), error.message);
+            throw InputError(placeOf(file_, element), error.what()); // with the file that it is about
         }
         bytes_ += text.size();
         if (seen_.size() > mostFiles || bytes_ > mostBytesInAll)

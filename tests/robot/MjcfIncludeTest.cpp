@@ -12,6 +12,7 @@ TEST_CASE("included files stand where they are named, once each") {
         if (name == "geom.xml") return "<mujoco><geom type='box' size='1 1 1'/></mujoco>";
         if (name == "self.xml") return "<mujoco><include file='self.xml'/></mujoco>";
         if (name == "bad.xml") return "<mujoco><worldbody>";
+        if (name == "gone.xml") throw InputError(Where{"/models/gone.xml"}, "cannot be read");
         throw InputError("no file " + name);
     };
     const RobotScene robot = made(modelOf("<include file='bodies.xml'/>"), others);
@@ -21,6 +22,8 @@ TEST_CASE("included files stand where they are named, once each") {
     CHECK(
         refused(modelOf("<include file='none.xml'/>"), others).find("line 2 (<include>): no file none.xml") !=
         std::string::npos);
+    CHECK(refused(modelOf("<include file='gone.xml'/>"), others)
+              .find("line 2 (<include>): /models/gone.xml: cannot be read") != std::string::npos);
     CHECK(refused(modelOf("<include file='bad.xml'/>"), others).find("bad.xml: line 1") != std::string::npos);
 }
 
