@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdint>
 #include <fmt/format.h>
+#include <initializer_list>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -19,6 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int byteType = 5121, shortType = 5123, floatType = 5126; // glTF's codes for types of components
 constexpr std::size_t glbHeader = 12, chunkHeader = 8;
 
 /// Little-endian.
@@ -95,7 +98,6 @@ void expectKnown(const Json& gltf, const std::string& file) {
 
 /// assimp takes the bytes of others for floats.
 void expectFloats(const Json& gltf, const std::string& file) {
-    constexpr int floats = 5126; // glTF's code
     const Json accessors = gltf.value("accessors", Json::array());
     for (const Json& mesh : gltf.value("meshes", Json::array()))
         for (const Json& primitive : mesh.at("primitives")) {
@@ -103,31 +105,141 @@ void expectFloats(const Json& gltf, const std::string& file) {
             if (position == primitive.at("attributes").end()) continue;
             const std::size_t k = position->get<std::size_t>();
             if (k >= accessors.size()) continue; // which the importer says
-            if (const int type = accessors[k].at("componentType").get<int>(); type != floats)
+            if (const int type = accessors[k].at("componentType").get<int>(); type != floatType)
                 throw InputError(Where{file, fmt::format("/accessors/{}/componentType", k)},
                                  fmt::format("expected positions in floats ({}), found {}; write it without "
                                              "quantization (KHR_mesh_quantization)",
-                                             floats, type));
+                                             floatType, type));
         }
 }
 
-std::vector<std::string> takeSkins(Json& gltf) {
-    std::set<std::int64_t> joints;
-    const Json skins = gltf.value("skins", Json::array());
-    gltf.erase("skins");
-    if (gltf.contains("nodes"))
-        for (Json& node : gltf["nodes"])
-            if (node.is_object()) node.erase("skin");
-    for (const Json& skin : skins)
-        if (skin.is_object())
-            for (const Json& joint : skin.value("joints", Json::array()))
-                if (joint.is_number_integer()) joints.insert(joint.get<std::int64_t>());
-    std::vector<std::string> leftOut;
-    if (!joints.empty()) leftOut.push_back(counted(joints.size(), "bone"));
+/// Whether an accessor has one of these component types and that type, as assimp takes for granted. Throws
+/// Json::exception for one that is not there.
+bool holds(const Json& gltf, const Json& accessor, std::initializer_list<int> components, const char* type) {
+    const Json& found = gltf.at("accessors").at(accessor.get<std::size_t>());
+    return found.at("type") == type &&
+           std::ranges::find(components, found.at("componentType").get<int>()) != components.end();
+}
+
+/// Empty for a skin that assimp can read at a mesh; else what is wrong with it.
+std::string whyNot(const Json& gltf, const Json& skin, const Json& mesh) {
+    const Json& joints = skin.at("joints");
+    for (const Json& joint : joints)
+        if (joint.get<std::size_t>() >= gltf.at("nodes").size()) return "names a node that is not there";
+    if (const auto binds = skin.find("inverseBindMatrices"); binds != skin.end())
+        if (!holds(gltf, *binds, {floatType}, "MAT4") ||
+            gltf["accessors"][binds->get<std::size_t>()].at("count").get<std::size_t>() < joints.size())
+            return "has no inverse bind matrix in floats for each of its joints";
+    for (const Json& primitive : mesh.at("primitives"))
+        for (const auto& [name, accessor] : primitive.at("attributes").items()) {
+            if (name.starts_with("WEIGHTS_") && !holds(gltf, accessor, {floatType}, "VEC4"))
+                return "has weights that are no floats";
+            if (name.starts_with("JOINTS_") && !holds(gltf, accessor, {byteType, shortType}, "VEC4"))
+                return "has joints that are no bytes and no shorts";
+        }
+    return "";
+}
+
+/// Nodes no longer have skins that cannot be read, whose meshes then stand where their nodes are. Skins that
+/// no node has are emptied.
+void leaveOutSkins(Json& gltf, std::vector<std::string>& leftOut) {
+    std::set<std::string> texts;
+    std::set<std::size_t> used;
+    for (Json& node : gltf["nodes"]) {
+        const auto found = node.find("skin");
+        if (found == node.end()) continue;
+        std::string why = "is not there";
+        const auto k = found->get<std::size_t>();
+        if (k < gltf["skins"].size() && node.contains("mesh"))
+            why = whyNot(gltf, gltf["skins"][k], gltf.at("meshes").at(node["mesh"].get<std::size_t>()));
+        if (why.empty()) {
+            used.insert(k);
+            continue;
+        }
+        node.erase("skin");
+        texts.insert(fmt::format("/skins/{}, which {}", k, why));
+    }
+    leftOut.insert(leftOut.end(), texts.begin(), texts.end());
+    for (std::size_t k = 0; k < gltf["skins"].size(); ++k)
+        if (!used.contains(k)) gltf["skins"][k] = {{"joints", Json::array()}};
+}
+
+/// assimp gives a skin to the mesh and not to the node: each node with one gets a mesh of its own.
+void separateSkins(Json& gltf) {
+    std::map<std::size_t, int> uses;
+    for (const Json& node : gltf["nodes"])
+        if (node.contains("mesh")) ++uses[node["mesh"].get<std::size_t>()];
+    for (Json& node : gltf["nodes"]) {
+        if (!node.contains("skin") || !node.contains("mesh")) continue;
+        const auto k = node["mesh"].get<std::size_t>();
+        if (uses[k]-- == 1) continue;
+        const Json copy = gltf.at("meshes").at(k);
+        gltf["meshes"].push_back(copy);
+        node["mesh"] = gltf["meshes"].size() - 1;
+    }
+}
+
+/// assimp finds the joints of a skin by their names, which glTF need not give them, nor but once.
+void nameJoints(Json& gltf) {
+    std::map<std::string, int> uses;
+    for (const Json& node : gltf["nodes"]) ++uses[node.value("name", "")];
+    for (const Json& skin : gltf["skins"])
+        for (const Json& joint : skin.at("joints")) {
+            Json& node = gltf["nodes"].at(joint.get<std::size_t>());
+            const std::string name = node.value("name", "");
+            if (!name.empty() && uses[name] < 2) continue;
+            node["name"] = fmt::format("{}_{}", name.empty() ? "joint" : name, joint.get<std::size_t>());
+        }
+}
+
+/// Of a multiple of three bytes.
+std::string base64(std::string_view text) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string coded;
+    for (std::size_t k = 0; k + 2 < text.size(); k += 3) {
+        const auto byte = [&](std::size_t n) {
+            return static_cast<unsigned>(static_cast<unsigned char>(text[k + n]));
+        };
+        const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (const int shift : {18, 12, 6, 0}) coded += letters[three >> shift & 63];
+    }
+    return coded;
+}
+
+/// A skin without inverse bind matrices has identities (3.7.3.1), for which assimp looks in vain.
+void addInverseBinds(Json& gltf) {
+    constexpr std::size_t ofMatrix = 64;
+    for (Json& skin : gltf["skins"]) {
+        if (skin.contains("inverseBindMatrices") || skin.at("joints").empty()) continue;
+        const std::size_t count = skin.at("joints").size(), size = count * ofMatrix;
+        std::string matrices;
+        for (std::size_t k = 0; k < (count + 2) / 3 * 3 * 16; ++k)
+            matrices += k % 16 % 5 == 0 ? std::string("\0\0\x80\x3f", 4) : std::string(4, '\0'); // 1 and 0
+        gltf["buffers"].push_back({{"byteLength", matrices.size()},
+                                   {"uri", "data:application/octet-stream;base64," + base64(matrices)}});
+        gltf["bufferViews"].push_back({{"buffer", gltf["buffers"].size() - 1}, {"byteLength", size}});
+        gltf["accessors"].push_back({{"bufferView", gltf["bufferViews"].size() - 1},
+                                     {"componentType", floatType},
+                                     {"count", count},
+                                     {"type", "MAT4"}});
+        skin["inverseBindMatrices"] = gltf["accessors"].size() - 1;
+    }
+}
+
+/// As assimp reads them.
+void prepareSkins(Json& gltf, std::vector<std::string>& leftOut) {
+    if (!gltf.contains("nodes") || !gltf.contains("meshes")) return;
+    if (!gltf.contains("skins")) gltf["skins"] = Json::array();
+    leaveOutSkins(gltf, leftOut);
+    separateSkins(gltf);
+    nameJoints(gltf);
+    addInverseBinds(gltf);
+}
+
+void noteInstances(const Json& gltf, std::vector<std::string>& leftOut) {
     const Json extensions = gltf.value("extensionsUsed", Json::array());
     if (std::ranges::find(extensions, "EXT_mesh_gpu_instancing") != extensions.end())
         leftOut.push_back("the copies of meshes that EXT_mesh_gpu_instancing makes");
-    return leftOut;
 }
 
 } // namespace
@@ -149,7 +261,8 @@ std::optional<PlainGltf> plainGltf(const std::string& file) {
         expectKnown(gltf, file);
         expectFloats(gltf, file);
         PlainGltf plain;
-        plain.leftOut = takeSkins(gltf);
+        prepareSkins(gltf, plain.leftOut);
+        noteInstances(gltf, plain.leftOut);
         const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
         plain.bytes = binary ? glbWith(json, bytes, glbHeader + chunkHeader + text.size()) : json;
         return plain;

@@ -17,8 +17,9 @@ struct MeshFileNotes {
 
 /// Reads every mesh of a file that assimp reads as one: node transforms applied, polygons triangulated,
 /// vertices at exactly the same place made one (in the order of their first use), points and lines left out.
-/// Nothing is turned: whatever way is up in the file, the numbers stay (Collada's in metres). Nothing else is
-/// repaired: see auditMesh() and cleaned(). assimp holds coordinates as floats, so that at most 7 digits of a
+/// A skinned mesh stands where its bones in the file take it, as nothing else says how large it is and which
+/// of its ways is up. Nothing is turned: whatever way is up in the file, the numbers stay (Collada's in
+/// metres). Nothing else is repaired: see auditMesh() and cleaned(). assimp holds coordinates as floats, so that at most 7 digits of a
 /// file survive: a mesh far from the origin of its file loses detail (at 1e7 units a float is 1 unit wide).
 /// Other files that it names are read where they lie in its folder or below. Throws InputError: no such file,
 /// a format or content that cannot be read, also where its reader crashes or takes all memory, no triangle in

@@ -9,6 +9,7 @@
 #include "bake/base/Words.h"
 #include "bake/geometry/MeshFileParts.h"
 #include "bake/geometry/Polygon.h"
+#include "bake/geometry/SkinPlaces.h"
 
 #include <algorithm>
 #include <array>
@@ -169,13 +170,9 @@ private:
     static inline std::set<std::string> parts_;
 };
 
-Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
-    return Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>::Map(m[0]).cast<double>();
-}
-
-/// Without the vertices of points and lines alone, which are no surface and would count in its size. Throws
-/// InputError for a face that names a vertex which is not there.
-void append(const aiMesh& source, TriangleMesh& mesh) {
+/// Without the vertices of points and lines alone, which are no surface and would count in its size. places:
+/// where its vertices are taken. Throws InputError for a face that names a vertex which is not there.
+void append(const aiMesh& source, const std::vector<Eigen::Affine3d>& places, TriangleMesh& mesh) {
     enum Use { Loose, OfLine, OfFace };
     std::vector<Use> uses(source.mNumVertices, Loose);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -194,7 +191,7 @@ void append(const aiMesh& source, TriangleMesh& mesh) {
         if (uses[v] == OfLine) continue;
         const aiVector3D& p = source.mVertices[v];
         place[v] = static_cast<int>(mesh.vertices.size());
-        mesh.vertices.emplace_back(p.x, p.y, p.z);
+        mesh.vertices.push_back(places[v] * Vec3(p.x, p.y, p.z));
     }
     std::vector<Vec3> corners;
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -203,29 +200,58 @@ void append(const aiMesh& source, TriangleMesh& mesh) {
         corners.clear();
         for (unsigned k = 0; k < face.mNumIndices; ++k)
             corners.push_back(mesh.vertices[place[face.mIndices[k]]]);
-        for (const Tri& t : triangulated(corners))
+        const bool mirrored = places[face.mIndices[0]].linear().determinant() < 0;
+        for (Tri t : triangulated(corners)) {
+            if (mirrored) std::swap(t[1], t[2]); // keeps the outside outside
             mesh.triangles.emplace_back(place[face.mIndices[t[0]]], place[face.mIndices[t[1]]],
                                         place[face.mIndices[t[2]]]);
+        }
     }
 }
 
-void collect(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& place,
+void placeNodes(const aiNode& node, const Eigen::Affine3d& place, NodePlaces& places) {
+    places.try_emplace(node.mName.C_Str(), place);
+    for (unsigned i = 0; i < node.mNumChildren; ++i)
+        placeNodes(*node.mChildren[i], place * placeOf(node.mChildren[i]->mTransformation), places);
+}
+
+/// The meshes of a node in its own frame, or all in the file's where bones take one of them elsewhere.
+ImportedNode partOf(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& place,
+                    const NodePlaces& places) {
+    std::vector<std::vector<Eigen::Affine3d>> skins;
+    bool elsewhere = false;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        skins.push_back(skinPlaces(*scene.mMeshes[node.mMeshes[i]], places, place));
+        elsewhere = elsewhere || !skins.back().empty();
+    }
+    const Eigen::Affine3d none = Eigen::Affine3d::Identity();
+    ImportedNode part{node.mName.C_Str(), elsewhere ? none : place, {}};
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+        if (skins[i].empty()) skins[i].assign(mesh.mNumVertices, elsewhere ? place : none);
+        append(mesh, skins[i], part.mesh);
+    }
+    return part;
+}
+
+void collect(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& place, const NodePlaces& places,
              std::vector<ImportedNode>& nodes) {
-    ImportedNode part{node.mName.C_Str(), Eigen::Affine3d(place), {}};
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) append(*scene.mMeshes[node.mMeshes[i]], part.mesh);
+    ImportedNode part = partOf(scene, node, place, places);
     if (!part.mesh.empty()) nodes.push_back(std::move(part));
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-        collect(scene, *node.mChildren[i], place * matrix(node.mChildren[i]->mTransformation), nodes);
+        collect(scene, *node.mChildren[i], place * placeOf(node.mChildren[i]->mTransformation), places,
+                nodes);
 }
 
 /// That of the root as its file has it: some of assimp's readers turn what has Z up so that Y is.
-Eigen::Matrix4d placeOfRoot(const aiScene& scene, const std::string& file) {
-    Eigen::Matrix4d upright = Eigen::Matrix4d::Identity();
-    upright.block<2, 2>(1, 1) << 0, 1, -1, 0;
-    const Eigen::Matrix4d place = matrix(scene.mRootNode->mTransformation);
+Eigen::Affine3d placeOfRoot(const aiScene& scene, const std::string& file) {
+    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+    upright.linear().block<2, 2>(1, 1) << 0, 1, -1, 0;
+    const Eigen::Affine3d place = placeOf(scene.mRootNode->mTransformation);
     constexpr std::array turning = {".3ds", ".ase", ".ask", ".dxf", ".md2", ".md3", ".md5mesh"};
-    const bool turned = place == upright && std::ranges::find(turning, extensionOf(file)) != turning.end();
-    return turned ? Eigen::Matrix4d::Identity() : place;
+    const bool turned =
+        place.matrix() == upright.matrix() && std::ranges::find(turning, extensionOf(file)) != turning.end();
+    return turned ? Eigen::Affine3d::Identity() : place;
 }
 
 std::vector<std::string> leftOutOf(const aiScene& scene) {
@@ -285,7 +311,10 @@ MeshFile readHere(const std::string& file) {
     if (gltf) files->readInstead(gltf->bytes);
     const aiScene& scene = importScene(importer, *files, file);
     MeshFile read;
-    collect(scene, *scene.mRootNode, placeOfRoot(scene, file), read.nodes);
+    const Eigen::Affine3d root = placeOfRoot(scene, file);
+    NodePlaces places;
+    placeNodes(*scene.mRootNode, root, places);
+    collect(scene, *scene.mRootNode, root, places, read.nodes);
     read.notes = statedNotes(file, scene);
     const std::vector<std::string> leftOut = leftOutOf(scene);
     read.notes.leftOut.insert(read.notes.leftOut.begin(), leftOut.begin(), leftOut.end());

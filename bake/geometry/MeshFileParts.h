@@ -13,14 +13,14 @@ namespace tss {
 
 // What readMeshFile() is made of.
 
-/// A glTF file, text or binary, without what is not used of it.
+/// A glTF file, text or binary, as assimp reads it.
 struct PlainGltf {
     std::string bytes;
-    std::vector<std::string> leftOut; ///< in a few words each: "2 bones"
+    std::vector<std::string> leftOut; ///< in a few words each
 };
 
-/// The file without its skins: assimp crashes on one that has no inverse bind matrices, as glTF lets it.
-/// Nothing where it is no glTF 2 that can be read as JSON: what it is then the importer says. Throws
+/// The file with skins that assimp can read: it crashes on one without inverse bind matrices, as glTF lets
+/// them be, finds joints by names alone, and gives a skin to a mesh, where glTF gives it to a node. Nothing where it is no glTF 2 that can be read as JSON: what it is then the importer says. Throws
 /// InputError for nodes that are more than 1000 levels deep, for positions that are no floats, and where the
 /// file needs an extension that is not read and may change surfaces.
 std::optional<PlainGltf> plainGltf(const std::string& file);
