@@ -132,7 +132,8 @@ std::string extensionOf(const std::string& file) {
 }
 
 bool isGltf(const std::string& file) {
-    return extensionOf(file) == ".gltf" || extensionOf(file) == ".glb";
+    const std::string extension = extensionOf(file);
+    return extension == ".gltf" || extension == ".glb" || extension == ".vrm";
 }
 
 } // namespace tss

@@ -41,7 +41,7 @@ std::vector<ImportedNode> importNodes(const std::string& file, MeshFileNotes* no
 /// The notes for people; one too where the unit that the mesh is taken to be in is not the file's own.
 std::vector<std::string> remarks(const std::string& file, const MeshFileNotes& notes, double metersPerUnit);
 
-/// The file is a glTF, whose Y axis is up and whose unit is the metre, always.
+/// The file is a glTF, or an avatar as one (VRM), whose Y axis is up and whose unit is the metre, always.
 bool isGltf(const std::string& file);
 
 /// ".obj" of "A.OBJ"

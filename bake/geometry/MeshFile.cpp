@@ -52,6 +52,7 @@ public:
 
     bool Exists(const char* file) const override {
         std::error_code none;
+        if (instead_ && fs::path(file) == file_) return true;
         return whyNot(file).empty() && fs::is_regular_file(file, none);
     }
     /// Null for a file that may not be opened.
@@ -277,13 +278,13 @@ std::vector<std::string> leftOutOf(const aiScene& scene) {
 }
 
 /// Cutting a face into triangles takes the square of its corners.
-void expectSmallFaces(const aiScene& scene, const std::string& file) {
+void expectSmallFaces(const aiScene& scene) {
     constexpr unsigned most = 10'000;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m)
         for (unsigned f = 0; f < scene.mMeshes[m]->mNumFaces; ++f)
             if (const unsigned corners = scene.mMeshes[m]->mFaces[f].mNumIndices; corners > most)
-                throw InputError(Where{file}, "has a face of " + std::to_string(corners) +
-                                                  " corners; expected at most " + std::to_string(most));
+                throw InputError("has a face of " + std::to_string(corners) + " corners; expected at most " +
+                                 std::to_string(most));
 }
 
 const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const std::string& file) {
@@ -296,20 +297,22 @@ const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const
     const std::string why = files.refused().empty() ? importer.GetErrorString() : files.refused();
     if (why == std::bad_alloc().what()) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)
-        throw InputError(Where{file},
-                         "cannot be read as a mesh: " + (why.empty() ? "its reader does not say why" : why));
+        throw InputError("cannot be read as a mesh: " + (why.empty() ? "its reader does not say why" : why));
     Losses::expectNoFaces();
-    expectSmallFaces(*scene, file);
+    expectSmallFaces(*scene);
     return *scene;
 }
 
 MeshFile readHere(const std::string& file) {
     Assimp::Importer importer;
-    auto* files = new NearbyFiles(file);
-    importer.SetIOHandler(files); // which owns it
     const std::optional<PlainGltf> gltf = isGltf(file) ? plainGltf(file) : std::nullopt;
+    std::string named = file;
+    if (gltf && extensionOf(file) == ".vrm") // which assimp does not know
+        named += gltf->bytes.starts_with("glTF") ? ".glb" : ".gltf";
+    auto* files = new NearbyFiles(named);
+    importer.SetIOHandler(files); // which owns it
     if (gltf) files->readInstead(gltf->bytes);
-    const aiScene& scene = importScene(importer, *files, file);
+    const aiScene& scene = importScene(importer, *files, named);
     MeshFile read;
     const Eigen::Affine3d root = placeOfRoot(scene, file);
     NodePlaces places;
@@ -320,7 +323,7 @@ MeshFile readHere(const std::string& file) {
     read.notes.leftOut.insert(read.notes.leftOut.begin(), leftOut.begin(), leftOut.end());
     if (gltf) read.notes.leftOut.insert(read.notes.leftOut.end(), gltf->leftOut.begin(), gltf->leftOut.end());
     for (const std::string& part : Losses::parts())
-        read.notes.leftOut.push_back("what assimp says \"" + part + "\" of");
+        read.notes.leftOut.push_back("a part, of which assimp says \"" + part + "\"");
     if (!files->refused().empty()) read.notes.leftOut.push_back(files->refused());
     return read;
 }

@@ -112,6 +112,21 @@ TEST_CASE("a skin mirrored by its bones keeps its outside outside") {
     CHECK(std::min({a.x(), b.x(), c.x()}) == Approx(-1));
 }
 
+TEST_CASE("an avatar in a VRM is read as the glTF that it is") {
+    const SkinnedTriangle file(R"({"children":[1,2,3],"scale":[0.5,0.5,0.5]},{"name":"a"},{"name":"b"},)"
+                               R"({"mesh":0,"skin":0})",
+                               R"({"joints":[1,2]})");
+    const std::string vrm = std::string(OSGTSS_BINARY_DIR) + "/skin_places.vrm";
+    std::filesystem::copy_file(file.name, vrm, std::filesystem::copy_options::overwrite_existing);
+    MeshFileNotes notes;
+    CHECK(importMesh(vrm, &notes).vertices == std::vector<Vec3>{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}});
+    CHECK(notes.upAxis == 'Y');
+    CHECK(notes.metersPerUnit == 1);
+    std::filesystem::remove(file.buffer);
+    CHECK_THROWS_WITH(importMesh(vrm), Catch::Contains(vrm + ": cannot be read as a mesh"));
+    std::filesystem::remove(vrm);
+}
+
 TEST_CASE("where bones stand as a skin was bound, but for rounding, the numbers of its file stay") {
     const SkinnedTriangle file(
         R"({"children":[1,2,3]},{"name":"a","translation":[1.0000001,0,0]},{"name":"b"},)"
