@@ -2,14 +2,14 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Geometry>
-#include <osgAnimation/RigGeometry>
+#include <osgTSS/SkinGeometry>
 
 namespace osgTSS {
 
 namespace {
 
 /// What is shown, by its vertices: bounds of nodes are spheres about spheres, and OSG doubles those of rigged
-/// meshes.
+/// meshes. Skins hold theirs where their bones have them from the first update on.
 class ShownVertices : public osg::ComputeBoundsVisitor {
 public:
     explicit ShownVertices(Framing& framing)
@@ -18,10 +18,11 @@ public:
     void apply(osg::Drawable& drawable) override {
         const osg::Matrixd toWorld =
             _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
-        osg::Geometry* geometry = drawable.asGeometry();
-        if (auto* rig = dynamic_cast<osgAnimation::RigGeometry*>(&drawable); rig && rig->getSourceGeometry())
-            geometry = rig->getSourceGeometry();
-        const auto* vertices = geometry ? dynamic_cast<osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+        const osg::Vec3Array* vertices = nullptr;
+        if (const auto* skin = dynamic_cast<const SkinGeometry*>(&drawable))
+            vertices = skin->getVertices();
+        else if (const osg::Geometry* geometry = drawable.asGeometry())
+            vertices = dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray());
         if (vertices)
             for (const osg::Vec3& v : *vertices) _framing.add(osg::Vec3d(v) * toWorld);
         else if (const osg::BoundingBox box = drawable.getBoundingBox(); box.valid())
@@ -52,14 +53,15 @@ OffscreenViewer::OffscreenViewer(osg::Node& scene, const Shot& shot) : _shot(sho
 }
 
 const osg::Image& OffscreenViewer::draw(unsigned int frame) {
+    if (!_viewer->isRealized()) _viewer->realize();
+    pass(frame);
     look(frame);
-    _viewer->frame(frame / framesPerSecond);
+    _viewer->renderingTraversals();
     average();
     return *_image;
 }
 
 void OffscreenViewer::pass(unsigned int frame) {
-    look(frame);
     _viewer->advance(frame / framesPerSecond);
     _viewer->eventTraversal();
     _viewer->updateTraversal();

@@ -100,10 +100,43 @@ tube upper 0 17 1 && tube lower 23 40 1 && tube hide -9 49 7
 "$build/bin/tss" make -o "$out/limb.tss" --quiet --body "$out/upper.obj" --body "$out/lower.obj" \
     --skin "$out/hide.obj" --joint 'elbow=upper,lower:rot:20,0,0:0,1,0:-80:80'
 fits 160x120 "$out/limb.tss" 12
+# No more is in sight than the skin itself, as the corners of its bounding box would be.
+printf 'v %s\n' '70 0 0' '-30 0 0' '20 50 0' '20 -50 0' '20 0 50' '20 0 -50' >"$out/octahedron.obj"
+printf 'f %s\n' '1 3 5' '3 2 5' '2 4 5' '4 1 5' '3 1 6' '2 3 6' '4 2 6' '1 4 6' >>"$out/octahedron.obj"
+"$build/bin/tss" make -o "$out/octahedron.tss" --quiet --body "$out/upper.obj" --body "$out/lower.obj" \
+    --skin "$out/octahedron.obj" --joint 'elbow=upper,lower:rot:20,0,0:0,1,0:0:1'
+fits 160x120 "$out/octahedron.tss" 12
 printf 'step,rot\n0,0\n1001,0\n1002,90\n1003,0\n2015,0\n' >"$out/moment.csv"
 "$build/bin/tss" make -o "$out/moment.tss" --quiet --a "$out/upper.obj" --b "$out/lower.obj" \
     --dof rot:20,0,0:0,1,0:0:90 --motion "$out/moment.csv"
 fits 160x120 "$out/moment.tss" 1002
+# A rigged mesh is in sight where its bones have it, wherever its own numbers are.
+cat >"$out/rig.dae" <<'END'
+<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="12">0 0 0 1 0 0 0 1 0 0 0 1</float_array>
+<technique_common><accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles>
+</mesh></geometry></library_geometries>
+<library_controllers><controller id="c"><skin source="#g">
+<source id="j"><Name_array id="ja" count="1">bone</Name_array><technique_common>
+<accessor source="#ja" count="1"><param name="JOINT" type="name"/></accessor></technique_common></source>
+<source id="b"><float_array id="ba" count="16">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array><technique_common>
+<accessor source="#ba" count="1" stride="16"><param name="TRANSFORM" type="float4x4"/></accessor></technique_common></source>
+<source id="w"><float_array id="wa" count="1">1</float_array><technique_common>
+<accessor source="#wa" count="1"><param name="WEIGHT" type="float"/></accessor></technique_common></source>
+<joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#b"/></joints>
+<vertex_weights count="4"><input semantic="JOINT" source="#j" offset="0"/><input semantic="WEIGHT" source="#w" offset="1"/>
+<vcount>1 1 1 1</vcount><v>0 0 0 0 0 0 0 0</v></vertex_weights></skin></controller></library_controllers>
+<library_visual_scenes><visual_scene id="s">
+<node id="bone" sid="bone" type="JOINT"><translate sid="t">90 0 0</translate><scale sid="s">3 3 3</scale></node>
+<node id="n"><instance_controller url="#c"><skeleton>#bone</skeleton></instance_controller></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+END
+fits 160x120 "$out/rig.dae" 1
 # The end of a motion is shown where it is another place than the beginning.
 printf 'step,rot\n0,0\n4,90\n' >"$out/open.csv"
 "$build/bin/tss" make -o "$out/open.tss" --quiet --a "$out/upper.obj" --b "$out/lower.obj" \

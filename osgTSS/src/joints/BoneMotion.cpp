@@ -38,7 +38,10 @@ struct Samples {
 
     void add(const osg::Matrixd& matrix, bool first) {
         const auto similarity = toSimilarity(matrix);
-        if (!similarity) throw tss::InputError("its keys shear it, or scale its axes differently");
+        if (!similarity)
+            throw tss::InputError(
+                "its keys shear it, or scale its axes differently; between matrices as keys "
+                "that are far apart in angle OpenSceneGraph does: write more of them");
         if (scale == 0) scale = similarity->scale;
         if (std::abs(similarity->scale - scale) > fewDigits * std::abs(scale))
             throw tss::InputError(std::string("its keys change its size") +
