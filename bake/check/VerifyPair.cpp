@@ -47,7 +47,7 @@ void addNotes(PairVerdict& verdict, const Pair& pair, double metersPerUnit) {
     if (meshes.fillings)
         verdict.notes.push_back(
             "what is behind openings of a mesh counts as body in the bound on early reports");
-    if (meshes.exempt.areaA + meshes.exempt.areaB > 0) {
+    if (!(pair.table ? pair.table->restRegion : pair.proof->restRegion).empty()) {
         verdict.notes.push_back(fmt::format("nothing is proven of contact between the parts of the surfaces "
                                             "that overlap at rest: {:.3g} % of A with {:.3g} % of B",
                                             100 * meshes.exempt.shareA, 100 * meshes.exempt.shareB));

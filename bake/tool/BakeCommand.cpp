@@ -36,18 +36,20 @@ Json addPairs(SceneModel& scene, const Console& console) {
 
 /// How many pairs never collide, overlap at rest, need a table of another kind.
 std::string tally(const Json& pairs) {
-    std::size_t never = 0, atRest = 0, others = 0;
+    std::size_t never = 0, atRest = 0, others = 0, little = 0;
     for (const Json& pair : pairs) {
         if (!pair["baked"].get<bool>()) continue;
-        if (pair["neverCollides"].get<bool>())
-            ++never;
-        else if (!pair["restRegion"].is_null() || pair["overlapAtRest"].get<int>() > 0)
+        if (!pair["restRegion"].is_null() || pair.value("overlapAtRest", 0) > 0) {
             ++atRest;
-        else
-            ++others;
+            little += !pair["boundedA"].is_null() && (pair["boundedA"] < 0.5 || pair["boundedB"] < 0.5);
+        } else {
+            ++(pair["neverCollides"].get<bool>() ? never : others);
+        }
     }
-    return fmt::format("never collide: {}; {} of bodies that overlap at rest, {}\n", counted(never, "pair"),
-                       counted(atRest, "table"), counted(others, "other table"));
+    const std::string most =
+        little ? fmt::format(" ({} with bounds for less than half of a body)", little) : "";
+    return fmt::format("never collide: {}; {} overlap at rest{}, {} may meet\n", counted(never, "pair"),
+                       atRest, most, others);
 }
 
 /// A tolerance so fine for the size of a body is mostly one in another unit, and takes hours.

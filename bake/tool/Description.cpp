@@ -1,6 +1,7 @@
 #include "bake/tool/Summary.h"
 
 #include "bake/pipeline/BakeOptions.h"
+#include "bake/tool/Exempt.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -72,9 +73,15 @@ std::string areaText(double area, double metersPerUnit) {
                                 : fmt::format("{:.3g} m2", squareMetres);
 }
 
-/// The exempt region, about which the bounds say nothing; goes at the end of their line. Empty: there is
-/// none.
-std::string exemptText(const Json& item, double metersPerUnit) {
+/// How much of the two surfaces the bounds are about, where that is not all of them.
+std::optional<BoundedShares> boundedPart(const Json& item) {
+    if (item.value("restRegion", Json()).is_null()) return std::nullopt;
+    const Json& region = item["restRegion"];
+    return boundedShares(region["shareA"].get<double>(), region["shareB"].get<double>());
+}
+
+/// What the bounds are not about. Empty: there is nothing.
+std::string exemptLine(const Json& item, double metersPerUnit) {
     const Json region = item.value("restRegion", Json());
     if (region.is_null()) return "";
     const auto part = [&](const char* area, const char* share) {
@@ -82,27 +89,11 @@ std::string exemptText(const Json& item, double metersPerUnit) {
                            100 * region[share].get<double>());
     };
     const Json& depth = region["depth"];
-    return fmt::format(", but for {} of A and {} of B that overlap at rest{}", part("areaA", "shareA"),
-                       part("areaB", "shareB"),
-                       depth.is_null() ? " and are left out"
-                                       : ": contact where they go deeper, spheres by " +
-                                             lengthText(depth.get<double>(), metersPerUnit));
-}
-
-/// A warning for each body with more than half of its surface exempt.
-std::string exemptWarning(const Json& item) {
-    const Json region = item.value("restRegion", Json());
-    if (region.is_null()) return "";
-    std::string text;
-    for (const auto& [body, share] : {std::pair{"A", "shareA"}, std::pair{"B", "shareB"}})
-        if (const double percent = 100 * region[share].get<double>(); percent > 50)
-            text +=
-                line("excepted",
-                     fmt::format("{:.3g} % of the surface of {} overlap at rest: of that part no contact "
-                                 "is told{}",
-                                 percent, body,
-                                 region["depth"].is_null() ? "" : " but where it goes deeper than at rest"));
-    return text;
+    return line("exempt", fmt::format("contact of {} of A with {} of B, which overlap at rest: {}",
+                                      part("areaA", "shareA"), part("areaB", "shareB"),
+                                      depth.is_null() ? "never told"
+                                                      : "told where they go deeper, spheres by " +
+                                                            lengthText(depth.get<double>(), metersPerUnit)));
 }
 
 /// How the run time asks the table.
@@ -164,6 +155,29 @@ std::string skinTableLines(const Json& item, double metersPerUnit) {
     return text;
 }
 
+std::string boundsText(const Json& item, double metersPerUnit) {
+    const std::optional<BoundedShares> part = boundedPart(item);
+    if (part && part->none()) return "none: all of A and of B is exempt, and nothing is proven";
+    return fmt::format("{}miss {}, early {}, epsilon {}, {}", part ? "for " + boundedText(*part) + ": " : "",
+                       lengthOrUnknown(item["boundMiss"], metersPerUnit), earlyText(item, metersPerUnit),
+                       lengthOrUnknown(item["epsilon"], metersPerUnit),
+                       hasNoSpheres(item)              ? "of no spheres"
+                       : item["certified"].get<bool>() ? "certified for every pose"
+                                                       : "sampled poses only");
+}
+
+/// That a pair never collides, which is proven.
+std::string proofLine(const Json& item, double metersPerUnit) {
+    const std::optional<BoundedShares> part = boundedPart(item);
+    if (part && part->none())
+        return line("bounds", boundsText(item, metersPerUnit)) + exemptLine(item, metersPerUnit);
+    return fmt::format(
+               "  never collide{}: the surfaces stay more than {} apart over the whole motion; no table, "
+               "no callback\n",
+               part ? ", for " + boundedText(*part) : "", lengthOrUnknown(item["clearance"], metersPerUnit)) +
+           exemptLine(item, metersPerUnit);
+}
+
 std::string tableLines(const Json& item, double metersPerUnit) {
     std::string text = line("used", fmt::format("{} + {}", item["usedA"].dump(), item["usedB"].dump()));
     text +=
@@ -175,20 +189,12 @@ std::string tableLines(const Json& item, double metersPerUnit) {
             (least.is_null() ? ""
                              : "; no table has fewer than " + counted(least.get<std::size_t>(), "test")));
     if (isSkin(item)) return text + skinTableLines(item, metersPerUnit);
-    const bool certified = item["certified"].get<bool>();
     if (hasNoSpheres(item))
         text += line("no spheres",
                      "were made of a body: the table reports no contact, and nothing is known of it");
-    else if (item["tests"] == 0 && !certified)
+    else if (item["tests"] == 0 && !item["certified"].get<bool>())
         text += line("no contact", "at any sampled pose: no proof that the bodies never meet");
-    text += line("bounds",
-                 fmt::format("miss {}, early {}, epsilon {}, {}{}",
-                             lengthOrUnknown(item["boundMiss"], metersPerUnit),
-                             earlyText(item, metersPerUnit), lengthOrUnknown(item["epsilon"], metersPerUnit),
-                             hasNoSpheres(item) ? "of no spheres"
-                             : certified        ? "certified for every pose"
-                                                : "sampled poses only",
-                             exemptText(item, metersPerUnit)));
+    text += line("bounds", boundsText(item, metersPerUnit)) + exemptLine(item, metersPerUnit);
     if (item.contains("earlyContact")) text += earlyContactLines(item, metersPerUnit);
     return text;
 }
@@ -207,12 +213,7 @@ std::string itemLines(const Json& item, double metersPerUnit) {
     if (item["spheresA"] != 0 || item["spheresB"] != 0)
         text += line("spheres", fmt::format("{} + {}", item["spheresA"].dump(), item["spheresB"].dump()));
     text +=
-        item.value("neverCollides", false)
-            ? fmt::format("  never collide: the surfaces stay more than {} apart over the whole motion{}; "
-                          "no table, no callback\n",
-                          lengthOrUnknown(item["clearance"], metersPerUnit), exemptText(item, metersPerUnit))
-            : tableLines(item, metersPerUnit);
-    text += exemptWarning(item);
+        item.value("neverCollides", false) ? proofLine(item, metersPerUnit) : tableLines(item, metersPerUnit);
     if (item.contains("kernel")) text += kernelLines(item["kernel"], metersPerUnit);
     const Json& seconds = item["seconds"];
     return text +

@@ -6,6 +6,7 @@
 #include "bake/table/EarlyBound.h"
 #include "bake/table/TableKernels.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/Exempt.h"
 
 #include <algorithm>
 
@@ -59,11 +60,25 @@ Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pai
     if (region.empty()) return nullptr;
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
     const double areaA = area(a, region.a), areaB = area(b, region.b);
+    // Of a surface without area, wires, any exempt part counts as all of it.
+    const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 1; };
     return {{"areaA", areaA},
             {"areaB", areaB},
-            {"shareA", areaA / area(a)},
-            {"shareB", areaB / area(b)},
+            {"shareA", share(areaA, area(a))},
+            {"shareB", share(areaB, area(b))},
             {"depth", region.depth < 0 ? Json() : Json(region.depth)}};
+}
+
+/// How much of either surface the bounds are about, of 1; null where none is stated.
+void addBounded(Json& json) {
+    const bool stated =
+        json["certified"].get<bool>() && !(json["boundMiss"].is_null() && json["boundEarly"].is_null());
+    const Json& region = json["restRegion"];
+    const BoundedShares bounded =
+        region.is_null() ? BoundedShares()
+                         : boundedShares(region["shareA"].get<double>(), region["shareB"].get<double>());
+    json["boundedA"] = stated ? Json(bounded.a) : Json();
+    json["boundedB"] = stated ? Json(bounded.b) : Json();
 }
 
 /// How the run time asks the table, how ill-conditioned that is, and the gaps where rounding may turn the
@@ -137,6 +152,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                      {"restRegion", regionOf(pair.proof->restRegion, scene, pair)},
                      {"method", pair.proof->method}});
     }
+    if (pair.table || pair.proof) addBounded(json);
     return json;
 }
 

@@ -6,6 +6,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
+#include "bake/tool/Exempt.h"
 #include "bake/verify/Kernel.h"
 
 #include <algorithm>
@@ -48,6 +49,10 @@ std::string kernelVerified(const Table& table, Json& json, const Progress& progr
     return {};
 }
 
+BoundedShares boundedPart(const PairVerdict& verdict) {
+    return boundedShares(verdict.meshes.exempt.shareA, verdict.meshes.exempt.shareB);
+}
+
 /// Proves a pair again; the figures go into `json`. Returns what does not hold, with the pose that breaks it.
 std::string verified(const SceneModel& scene, const Pair& pair, Json& json, const Progress& progress) {
     const PairVerdict verdict = verifyPair(scene, pair, progress);
@@ -56,6 +61,8 @@ std::string verified(const SceneModel& scene, const Pair& pair, Json& json, cons
     json["cells"] = verdict.cells;
     json["band"] = verdict.band;
     json["notes"] = verdict.notes;
+    json["boundedA"] = boundedPart(verdict).a;
+    json["boundedB"] = boundedPart(verdict).b;
     json["exempt"] = {{"areaA", verdict.meshes.exempt.areaA},
                       {"areaB", verdict.meshes.exempt.areaB},
                       {"shareA", verdict.meshes.exempt.shareA},
@@ -113,6 +120,18 @@ std::string claims(const Pair& pair, double metersPerUnit) {
     return text.empty() ? "nothing is claimed" : text;
 }
 
+const RestRegion& exemptParts(const Pair& pair) {
+    return pair.proof ? pair.proof->restRegion : pair.table->restRegion;
+}
+
+/// Of how much of the two bodies the claims hold, then the claims.
+std::string holding(const Pair& pair, const Json& json, double metersPerUnit) {
+    const BoundedShares bounded{json["boundedA"].get<double>(), json["boundedB"].get<double>()};
+    if (bounded.none()) return "nothing is proven: all of A and of B is exempt";
+    if (exemptParts(pair).empty()) return "holds at every pose: " + claims(pair, metersPerUnit);
+    return "holds for " + boundedText(bounded) + " at every pose: " + claims(pair, metersPerUnit);
+}
+
 /// Says what came of a pair or skin: `good` and the notes, or why it does not hold. Returns whether it does.
 bool tell(const std::string& file, const std::string& path, const std::string& why, const std::string& good,
           const std::vector<std::string>& notes, const Console& console) {
@@ -140,10 +159,12 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const Pair& pai
     json["reason"] = why;
     json["seconds"] = seconds;
     json["peakMegabytes"] = peakMemory();
-    const std::string good =
-        fmt::format("holds at every pose: {} ({} cells, rounding band {}, {:.3g} s, {:.3g} MB)",
-                    claims(pair, scene.metersPerUnit), json["cells"].dump(),
-                    lengthText(json["band"].get<double>(), scene.metersPerUnit), seconds, peakMemory());
+    std::string good;
+    if (why.empty())
+        good =
+            fmt::format("{} ({} cells, rounding band {}, {:.3g} s, {:.3g} MB)",
+                        holding(pair, json, scene.metersPerUnit), json["cells"].dump(),
+                        lengthText(json["band"].get<double>(), scene.metersPerUnit), seconds, peakMemory());
     result["pairs"].push_back(json);
     return tell(file, pair.path, why, good, json["notes"], console);
 }
@@ -168,6 +189,27 @@ bool verifyOne(const std::string& file, const SceneModel& scene, const SkinModel
     return tell(file, skin.path, thrown, "checked, not proven", verdict.notes, console);
 }
 
+/// How many pairs hold, and of how many of these parts are exempt.
+std::string tally(const Json& pairs) {
+    const auto count = [&](const auto& is) { return std::ranges::count_if(pairs, is); };
+    const auto holds = [](const Json& pair) { return pair["holds"].get<bool>(); };
+    const auto ofAll = [](const Json& pair) { return pair["boundedA"] == 1 && pair["boundedB"] == 1; };
+    std::string text =
+        fmt::format("{}: {} hold, {} do not, {} not decided", counted(pairs.size(), "pair"), count(holds),
+                    count([&](const Json& pair) { return pair["decided"].get<bool>() && !holds(pair); }),
+                    count([](const Json& pair) { return !pair["decided"].get<bool>(); }));
+    if (const auto parts = count([&](const Json& pair) { return holds(pair) && !ofAll(pair); }))
+        text += fmt::format("; {} of those that hold for a part of the surfaces alone", parts);
+    return text;
+}
+
+/// Whether each pair holds, for more than nothing.
+bool allProven(const Json& pairs) {
+    return !pairs.empty() && std::ranges::all_of(pairs, [](const Json& pair) {
+        return pair["holds"].get<bool>() && (pair["boundedA"] > 0 || pair["boundedB"] > 0);
+    });
+}
+
 void verify(const std::string& file, double budget, Console& console) {
     const SceneModel scene = loadScene(file);
     Json result = {{"file", file}, {"pairs", Json::array()}, {"skins", Json::array()}};
@@ -180,21 +222,12 @@ void verify(const std::string& file, double budget, Console& console) {
         if (skin.table) bad += !verifyOne(file, scene, skin, result, console, Budget(budget));
     if (result["pairs"].empty() && result["skins"].empty())
         throw InputError(Where{file}, "nothing to verify; expected a scene with a baked pair or skin");
-    if (result["pairs"].size() > 1) {
-        const auto count = [&](bool decided, bool holds) {
-            return std::ranges::count_if(result["pairs"], [&](const Json& pair) {
-                return pair["decided"] == decided && pair["holds"] == holds;
-            });
-        };
-        console.say(fmt::format("{}: {} hold, {} do not, {} not decided",
-                                counted(result["pairs"].size(), "pair"), count(true, true),
-                                count(true, false), count(false, false)));
-    }
+    if (result["pairs"].size() > 1) console.say(tally(result["pairs"]));
     if (result["pairs"].empty())
         console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
                                 counted(result["skins"].size(), "skin")));
     result["holds"] = bad == 0;
-    result["proven"] = bad == 0 && !result["pairs"].empty();
+    result["proven"] = bad == 0 && allProven(result["pairs"]);
     console.print(result);
     console.exitCode = bad == 0 ? 0 : 1;
 }
@@ -212,23 +245,27 @@ void addVerify(CLI::App& app, Console& console) {
             "--budget", *budget,
             "seconds a pair or skin, after which it is not decided; 0 (default): as long as it takes")
         ->check(CLI::NonNegativeNumber);
-    command->footer("Proven from the file and the meshes alone, at every pose of the limits: that some test "
-                    "reports where the\n"
-                    "meshes meet (miss); that where a test reports they are as near as stated (early); that "
-                    "meshes said to\n"
-                    "never collide stay as far apart as stated; that each kind of run-time kernel that this "
-                    "machine has rounds\n"
-                    "within its band; that no stored sphere sticks out farther than is said of its body. "
-                    "Counts, the least number\n"
-                    "of tests and what is said of spheres that the file does not hold are not proven, and "
-                    "refused where the table\n"
-                    "contradicts them. A gap that a table states down to a depth is proven against spheres "
-                    "made again from the\n"
-                    "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
-                    "of each muscle by\n"
-                    "itself is checked, and one that says it is certified is refused.\n"
-                    "Exits with 0 where all hold, with 1 where one does not or is not decided.\n" +
-                    app.get_footer());
+    command->footer(
+        "Proven from the file and the meshes alone, at every pose of the limits: that some test "
+        "reports where the\n"
+        "meshes meet (miss); that where a test reports they are as near as stated (early); that "
+        "meshes said to\n"
+        "never collide stay as far apart as stated; that each kind of run-time kernel that this "
+        "machine has rounds\n"
+        "within its band; that no stored sphere sticks out farther than is said of its body. "
+        "Counts, the least number\n"
+        "of tests and what is said of spheres that the file does not hold are not proven, and "
+        "refused where the table\n"
+        "contradicts them. A gap that a table states down to a depth is proven against spheres "
+        "made again from the\n"
+        "meshes. Of the tables of skins nothing is proven: what can be told of them at rest and "
+        "of each muscle by\n"
+        "itself is checked, and one that says it is certified is refused.\n"
+        "Where parts overlap at rest, their contact with each other is exempt: what holds is then said of so "
+        "much of\n"
+        "each surface (boundedA, boundedB with --json).\n"
+        "Exits with 0 where all hold, with 1 where one does not or is not decided.\n" +
+        app.get_footer());
     command->callback([file, budget, &console] { verify(*file, *budget, console); });
 }
 

@@ -291,7 +291,7 @@ TEST_CASE("info says of what overlaps at rest and is left out that it is") {
     REQUIRE(runTss("bake out.tss -o out.tss --tolerance 0.1 --at-rest ignore --quiet", folder.path()).exit ==
             0);
     const Ran text = runTss("info out.tss", folder.path());
-    CHECK(text.out.find("that overlap at rest and are left out") != std::string::npos);
+    CHECK(text.out.find("which overlap at rest: never told") != std::string::npos);
     const Json json = Json::parse(runTss("info out.tss --json", folder.path()).out);
     CHECK(json["pairs"][0]["restRegion"]["depth"].is_null());
 }
