@@ -27,8 +27,8 @@ constexpr std::uint64_t clearanceEffort = 20'000'000;
 class CoverSearch {
 public:
     CoverSearch(const CoverProblem& problem, const CoverOptions& options, const Progress& progress)
-        : problem_(problem), owed_{options.epsilon, options.gapDepth, options.gapMargin}, options_(options),
-          cover_(problem) {
+        : problem_(problem), contract_{options.epsilon, options.gapDepth, options.gapMargin},
+          options_(options), cover_(problem) {
         budget_.looks = options.looks;
         budget_.seconds = options.seconds;
         budget_.progress = progress;
@@ -36,10 +36,10 @@ public:
     }
 
     CoverResult run() {
-        const CoverProof first = prove(owed_, cover_, 0.6);
+        const CoverProof first = prove(contract_, cover_, 0.6);
         result_.forced = first.forced;
         if (first.complete) {
-            result_.epsilon = owed_.epsilon;
+            result_.epsilon = contract_.epsilon;
             makeSmaller();
         } else if (!options_.coarser) {
             result_.epsilon = infinity;
@@ -53,7 +53,7 @@ public:
 
 private:
     /// A proof over all of Q within a share of the budget that is left.
-    CoverProof prove(const ErrorContract& owed, GrowingCover& cover, double share) {
+    CoverProof prove(const ErrorContract& contract, GrowingCover& cover, double share) {
         CoverBudget part = budget_;
         part.watch.restart();
         if (budget_.seconds > 0)
@@ -62,13 +62,13 @@ private:
             part.looks = std::max<std::uint64_t>(
                 1, static_cast<std::uint64_t>(
                        share * double(budget_.looks - std::min(budget_.looks, result_.looks))));
-        CoverProof proof = proveCover(problem_, owed, cover, {wholeProblem(problem_)}, part);
+        CoverProof proof = proveCover(problem_, contract, cover, {wholeProblem(problem_)}, part);
         result_.cells += proof.cells;
         result_.looks += proof.looks;
         if (!proof.complete && !options_.coarser) return proof;
         // A pose that needs one of its pairs at a coarser epsilon needs one at the epsilon asked for as well,
         // and there fewer pairs answer.
-        const auto more = constraintsAt(problem_, owed_, proof.facts, mostAnswers);
+        const auto more = constraintsAt(problem_, contract_, proof.counterexamples, mostAnswers);
         constraints_.insert(constraints_.end(), more.begin(), more.end());
         return proof;
     }
@@ -83,13 +83,13 @@ private:
             for (const SpherePair& pair : smallest.pairs) {
                 next.add(*problem_.contactPair(pair));
             }
-            const CoverProof proof = prove(owed_, next, 1);
+            const CoverProof proof = prove(contract_, next, 1);
             if (!proof.complete) return;
             if (next.members().size() < cover_.members().size()) {
                 cover_ = std::move(next);
                 result_.forced = proof.forced;
             }
-            if (proof.facts.empty()) return;
+            if (proof.counterexamples.empty()) return;
         }
     }
 
@@ -97,9 +97,9 @@ private:
     double epsilonLeft(const std::vector<OpenCell>& left) const {
         std::vector<double> worst(left.size());
         parallelFor(left.size(), [&](std::size_t k) {
-            worst[k] = CellExaminer(problem_, owed_, cover_.members(), cover_.set()).epsilonOver(left[k]);
+            worst[k] = CellExaminer(problem_, contract_, cover_.members(), cover_.set()).epsilonOver(left[k]);
         });
-        return worst.empty() ? owed_.epsilon : *std::max_element(worst.begin(), worst.end());
+        return worst.empty() ? contract_.epsilon : *std::max_element(worst.begin(), worst.end());
     }
 
     /// An epsilon with which some single member answers at every pose: the gaps of two pairs differ by no
@@ -112,15 +112,15 @@ private:
                                  (problem_.b[member.pair.b].centre - b.centre).norm();
             least = std::min(least, apart + a.radius + b.radius - member.contactDistance + problem_.band);
         }
-        return std::max(least, owed_.epsilon);
+        return std::max(least, contract_.epsilon);
     }
 
     /// Where the budget did not suffice for the epsilon asked for: proves coarser ones, each half of the
     /// last, until the budget ends. Returns the smallest that is proven.
     double relaxEpsilon() {
         double reached = epsilonAnywhere();
-        for (double epsilon = problem_.size; epsilon > owed_.epsilon; epsilon *= 0.5) {
-            ErrorContract coarser = owed_;
+        for (double epsilon = problem_.size; epsilon > contract_.epsilon; epsilon *= 0.5) {
+            ErrorContract coarser = contract_;
             coarser.epsilon = epsilon;
             if (!prove(coarser, cover_, 1).complete) break;
             reached = std::min(reached, epsilon);
@@ -129,7 +129,7 @@ private:
     }
 
     CoverResult finish() {
-        result_.complete = result_.epsilon <= owed_.epsilon;
+        result_.complete = result_.epsilon <= contract_.epsilon;
         for (const ContactPair& member : cover_.members()) result_.pairs.push_back(member.pair);
         std::sort(result_.pairs.begin(), result_.pairs.end());
         result_.restGaps = problem_.rule.thresholds(result_.pairs);
@@ -139,7 +139,7 @@ private:
     }
 
     const CoverProblem& problem_;
-    const ErrorContract owed_;
+    const ErrorContract contract_;
     const CoverOptions& options_;
     CoverBudget budget_;
     GrowingCover cover_;

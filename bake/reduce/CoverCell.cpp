@@ -14,12 +14,12 @@ bool deeper(const PairInCell& x, const PairInCell& y) {
     return x.gap != y.gap ? x.gap < y.gap : x.contactPair.pair < y.contactPair.pair;
 }
 
-/// Where in the cell a pose is most likely at which pair p needs an answer and member k does not give it.
-/// With gaps taken as linear in the DOFs, returns the offset from the cell's centre that maximises f = gap of
-/// k - weight * gap of p while the gap of p is at most `level`. This is a linear program over a box with one
-/// constraint: from the corner where f is largest, DOFs are moved towards their other end, those first that
-/// lose least of f for what the gap of p falls. Only f > `answer` matters, so that a part of what f exceeds
-/// it by is given up to get inside the constraint. k null: the corner where the gap of p is least.
+/// Guesses where in the cell pair p needs an answer and member k does not give it. With gaps taken as linear
+/// in the DOFs, returns the offset from the cell's centre that maximises f = gap of k - weight * gap of p
+/// under the constraint gap of p <= `level`. That is a continuous knapsack problem: start at the corner of
+/// the cell where f is largest, then move DOFs towards their other end, first those that lower f least for
+/// each unit by which they lower the gap of p. As any f > `answer` will do, part of the excess is given up to
+/// end inside the constraint rather than on it. k null: the corner where the gap of p is least.
 std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairInCell* k, const PairInCell& p,
                                           double weight, double level, double answer) {
     std::array<double, maxDofs> offset{}, price{};
@@ -98,15 +98,16 @@ bool CellExaminer::collectMembers(const CellMotion& motion, const CellLists& lis
         const ContactPair& pair = members_[k];
         const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
         const double distance = (b.x - p_.a[pair.pair.a].centre).norm();
-        if (distance - b.motion.move > pair.contactDistance + owed_.margin + owed_.epsilon + p_.band) {
+        if (distance - b.motion.move >
+            pair.contactDistance + contract_.margin + contract_.epsilon + p_.band) {
             bestMember_ = std::min(bestMember_, distance - pair.contactDistance);
             return false;
         }
         PairInCell here(motion, b.x, b.motion, p_.a[pair.pair.a].centre, pair);
         here.member = k;
         bestMember_ = std::min(bestMember_, here.gap);
-        if (here.staysBelow(pair.contactDistance - owed_.depth + owed_.epsilon, p_.band)) return true;
-        if (!here.staysAbove(pair.contactDistance + owed_.margin + owed_.epsilon, p_.band))
+        if (here.staysBelow(pair.contactDistance - contract_.depth + contract_.epsilon, p_.band)) return true;
+        if (!here.staysAbove(pair.contactDistance + contract_.margin + contract_.epsilon, p_.band))
             near_.push_back(here);
         return false;
     };
@@ -133,10 +134,10 @@ void CellExaminer::addIfNear(const CellMotion& motion, const ContactPair& pair) 
     if (inCover_.contains(pair.pair)) return;
     const Moved& b = moved(motion, p_.treeB.leafOf(pair.pair.b));
     if ((b.x - p_.a[pair.pair.a].centre).norm() - b.motion.move >
-        pair.contactDistance + owed_.margin + p_.band)
+        pair.contactDistance + contract_.margin + p_.band)
         return;
     const PairInCell here(motion, b.x, b.motion, p_.a[pair.pair.a].centre, pair);
-    if (!here.staysAbove(pair.contactDistance + owed_.margin, p_.band)) open_.push_back(here);
+    if (!here.staysAbove(pair.contactDistance + contract_.margin, p_.band)) open_.push_back(here);
 }
 
 /// Descends the trees to the pairs of spheres that come near, and no farther than the motion in the cell
@@ -154,7 +155,7 @@ void CellExaminer::descendNodes(const CellMotion& motion, const std::vector<Node
                 }
                 const Moved& b = moved(motion, pair.b);
                 const double move = b.motion.move, sum = na.radius + nb.radius;
-                if ((b.x - na.centre).norm() - move > sum + owed_.margin + p_.band) return false;
+                if ((b.x - na.centre).norm() - move > sum + contract_.margin + p_.band) return false;
                 const bool blurred = sum < 2 * move && move > p_.floor;
                 if (blurred) nodes_.push_back(pair);
                 return !blurred;
@@ -165,16 +166,16 @@ void CellExaminer::descendNodes(const CellMotion& motion, const std::vector<Node
 /// member that answers that one answers them too.
 void CellExaminer::removeAnswered(const CellMotion& motion) {
     ranks_.clear();
-    for (std::uint32_t k = 0; k < near_.size(); ++k) ranks_.emplace_back(answerRank(near_[k], owed_), k);
+    for (std::uint32_t k = 0; k < near_.size(); ++k) ranks_.emplace_back(answerRank(near_[k], contract_), k);
     std::sort(ranks_.begin(), ranks_.end());
     std::uint32_t recent = 0; // the member that answered last, likely to answer again
     const auto answered = [&](const PairInCell& p) {
-        if (recent < near_.size() && dominates(motion, near_[recent], p, owed_, p_.band)) return true;
-        const double needed = rankNeeded(p, owed_);
+        if (recent < near_.size() && dominates(motion, near_[recent], p, contract_, p_.band)) return true;
+        const double needed = rankNeeded(p, contract_);
         for (const auto& [rank, k] : ranks_) {
             if (rank >= needed) break;
             ++looks_;
-            if (k != recent && dominates(motion, near_[k], p, owed_, p_.band)) {
+            if (k != recent && dominates(motion, near_[k], p, contract_, p_.band)) {
                 recent = k;
                 return true;
             }
@@ -183,7 +184,7 @@ void CellExaminer::removeAnswered(const CellMotion& motion) {
     };
     std::erase_if(open_, answered);
 
-    ErrorContract exact = owed_;
+    ErrorContract exact = contract_;
     exact.epsilon = 0;
     constexpr std::size_t leaders = 4;
     for (std::size_t lead = 0; lead < std::min(leaders, open_.size()); ++lead) {
@@ -201,7 +202,7 @@ void CellExaminer::removeAnswered(const CellMotion& motion) {
 
 /// Where the models touch at the centre of the cell and no member answers: the deepest pair there.
 std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMotion& motion) const {
-    if (bestMember_ <= owed_.answer(-infinity)) return {};
+    if (bestMember_ <= contract_.answer(-infinity)) return {};
     ContactPair best;
     double gap = infinity;
     if (!open_.empty()) {
@@ -209,7 +210,7 @@ std::optional<Counterexample> CellExaminer::counterexampleAtCentre(const CellMot
         gap = open_.front().gap;
     }
     if (!nodes_.empty()) deepestBelow(motion, best, gap);
-    if (gap > owed_.margin || bestMember_ <= owed_.answer(gap)) return {};
+    if (gap > contract_.margin || bestMember_ <= contract_.answer(gap)) return {};
     if (!withinLimits(p_.motion, motion.centre())) return {};
     return Counterexample{best, {motion.centre().begin(), motion.centre().end()}};
 }
@@ -223,16 +224,17 @@ std::optional<Counterexample> CellExaminer::counterexampleElsewhere(const CellMo
     const PairInCell* answering = nullptr;
     if (auto found = counterexampleAt(motion, extremeOffset(motion, nullptr, pair, 0, 0, 0), answering))
         return found;
-    const double owedFrom = owed_.yesNo() ? 0 : -owed_.depth;
+    const double deepEnough = contract_.yesNo() ? 0 : -contract_.depth;
     for (int round = 0; round < 3 && answering; ++round) {
         const PairInCell& member = *answering;
         if (auto found = counterexampleAt(
-                motion, extremeOffset(motion, &member, pair, 0, owedFrom, owed_.answer(-infinity)),
+                motion, extremeOffset(motion, &member, pair, 0, deepEnough, contract_.answer(-infinity)),
                 answering))
             return found;
-        if (owed_.yesNo()) continue;
+        if (contract_.yesNo()) continue;
         if (auto found = counterexampleAt(
-                motion, extremeOffset(motion, &member, pair, 1, owed_.margin, owed_.epsilon), answering))
+                motion, extremeOffset(motion, &member, pair, 1, contract_.margin, contract_.epsilon),
+                answering))
             return found;
     }
     return {};
@@ -263,13 +265,13 @@ std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& m
             gap = own;
             best = pair.contactPair;
         }
-    if (gap > owed_.margin || member <= owed_.answer(gap)) return {};
+    if (gap > contract_.margin || member <= contract_.answer(gap)) return {};
     return Counterexample{best, q};
 }
 
 /// The deepest pair at the centre below the nodes not opened, when deeper than the one given.
 void CellExaminer::deepestBelow(const CellMotion& motion, ContactPair& best, double& gap) const {
-    const double atMost = std::min(gap, std::nextafter(owed_.margin, infinity));
+    const double atMost = std::min(gap, std::nextafter(contract_.margin, infinity));
     leastBelow(p_.treeA, p_.treeB, motion.centrePose(), nodes_, atMost,
                [&](std::uint32_t i, std::uint32_t j) {
                    ++looks_;
@@ -318,7 +320,7 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
     if (!shrinkToPlanes(p_.motion, cell.box)) return 0;
     const CellMotion motion(p_.rates, cell.box);
     ++cellNumber_;
-    if (collectMembers(motion, *cell.lists)) return owed_.epsilon;
+    if (collectMembers(motion, *cell.lists)) return contract_.epsilon;
     double table = infinity;
     for (const ContactPair& pair : members_) {
         const Vec3 x = motion.centrePose() * p_.b[pair.pair.b].centre;
@@ -338,8 +340,8 @@ double CellExaminer::epsilonOver(const OpenCell& whole) {
             std::min(models, (x - na.centre).norm() - na.radius - nb.radius - motion.pointMotion(x).move);
     }
     models -= p_.band;
-    if (models > owed_.margin) return owed_.epsilon;
-    return std::max(owed_.epsilon, table - std::max(models, -owed_.depth) + p_.band);
+    if (models > contract_.margin) return contract_.epsilon;
+    return std::max(contract_.epsilon, table - std::max(models, -contract_.depth) + p_.band);
 }
 
 } // namespace tss

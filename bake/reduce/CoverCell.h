@@ -41,9 +41,10 @@ struct CellVerdict {
 class CellExaminer {
 public:
     /// members: the cover; inCover: the same as a set. Neither changes while this lives.
-    CellExaminer(const CoverProblem& problem, const ErrorContract& owed,
+    CellExaminer(const CoverProblem& problem, const ErrorContract& contract,
                  const std::vector<ContactPair>& members, const ConcurrentPairs& inCover)
-        : p_(problem), owed_(owed), members_(members), inCover_(inCover), moved_(problem.treeB.size()) {}
+        : p_(problem), contract_(contract), members_(members), inCover_(inCover),
+          moved_(problem.treeB.size()) {}
 
     CellVerdict examine(const OpenCell& cell);
 
@@ -69,7 +70,7 @@ private:
     CellVerdict split(const OpenCell& cell, const CellMotion& motion, std::uint32_t seen) const;
 
     const CoverProblem& p_;
-    const ErrorContract owed_;
+    const ErrorContract contract_;
     const std::vector<ContactPair>& members_;
     const ConcurrentPairs& inCover_;
 

@@ -42,8 +42,10 @@ PartResult runPart(CellExaminer& examiner, OpenCell cell, std::uint64_t steps, s
 /// Adds the pairs that a round found lacking, except those that a pair added before in the round answers.
 class Additions {
 public:
-    Additions(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover, CoverProof& proof)
-        : problem_(problem), owed_(owed), cover_(cover), proof_(proof), first_(cover.members().size()) {}
+    Additions(const CoverProblem& problem, const ErrorContract& contract, GrowingCover& cover,
+              CoverProof& proof)
+        : problem_(problem), contract_(contract), cover_(cover), proof_(proof),
+          first_(cover.members().size()) {}
 
     void add(const Counterexample& lacking) {
         if (cover_.set().contains(lacking.pair.pair)) return;
@@ -53,15 +55,15 @@ public:
             ++proof_.forced;
         } else {
             const Pose at = pose(problem_.motion, lacking.pose);
-            if (cover_.gap(at, first_) <= owed_.answer(problem_.gap(lacking.pair, at))) return;
-            proof_.facts.push_back(lacking.pose);
+            if (cover_.gap(at, first_) <= contract_.answer(problem_.gap(lacking.pair, at))) return;
+            proof_.counterexamples.push_back(lacking.pose);
         }
         cover_.add(lacking.pair);
     }
 
 private:
     const CoverProblem& problem_;
-    const ErrorContract& owed_;
+    const ErrorContract& contract_;
     GrowingCover& cover_;
     CoverProof& proof_;
     std::size_t first_;
@@ -104,12 +106,12 @@ double GrowingCover::gap(const Pose& pose, std::size_t first) const {
     return best;
 }
 
-CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& contract, GrowingCover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget) {
     constexpr std::size_t width = 64;
     CoverProof proof;
     tbb::enumerable_thread_specific<CellExaminer> examiners(
-        [&] { return CellExaminer(problem, owed, cover.members(), cover.set()); });
+        [&] { return CellExaminer(problem, contract, cover.members(), cover.set()); });
     proof.left = std::move(cells);
     std::reverse(proof.left.begin(), proof.left.end());
     while (!proof.left.empty()) {
@@ -119,7 +121,7 @@ CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, Gr
                 budget.looks > 0 ? (budget.looks - proof.looks) / count + 1 : std::uint64_t(-1);
             return runPart(examiners.local(), std::move(cell), count < width / 4 ? 16 : 256, looks, budget);
         });
-        Additions additions(problem, owed, cover, proof);
+        Additions additions(problem, contract, cover, proof);
         for (const PartResult& part : parts) {
             proof.cells += part.cells;
             proof.looks += part.looks;

@@ -53,13 +53,14 @@ struct CoverProof {
     std::uint64_t cells = 0;    ///< cells looked at
     std::uint64_t looks = 0;    ///< at pairs in them
     std::uint64_t forced = 0;   ///< members taken in cells too small to split, without a pose that needs them
-    std::vector<std::vector<double>> facts; ///< DOF values of poses where the cover lacked an answer
+    std::vector<std::vector<double>>
+        counterexamples; ///< DOF values of poses where the cover lacked an answer
 };
 
-/// Shows, cell by cell, that the cover answers all that is owed, adding what it lacks (METHOD 3.3). Rounds of
+/// Shows, cell by cell, that the cover keeps the contract, adding what it lacks (METHOD 3.3). Rounds of
 /// many cells in parallel against a cover that stands still, then what they lack is added one by one in a
 /// fixed order: the same bits for any number of threads.
-CoverProof proveCover(const CoverProblem& problem, const ErrorContract& owed, GrowingCover& cover,
+CoverProof proveCover(const CoverProblem& problem, const ErrorContract& contract, GrowingCover& cover,
                       std::vector<OpenCell> cells, const CoverBudget& budget);
 
 } // namespace tss

@@ -61,21 +61,22 @@ bool distanceBounded(const CellMotion& cell, const PairInCell& k, const PairInCe
 
 } // namespace
 
-bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p, const ErrorContract& owed,
-               double band) {
+bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p,
+               const ErrorContract& contract, double band) {
     const double slack = 16 * (k.distance + p.distance + k.move + p.move + band) * band;
-    if (owed.yesNo()) return contactImplied(cell, k, p, k.contactPair.contactDistance + owed.epsilon, slack);
+    if (contract.yesNo())
+        return contactImplied(cell, k, p, k.contactPair.contactDistance + contract.epsilon, slack);
     return distanceBounded(
-        cell, k, p, k.contactPair.contactDistance - p.contactPair.contactDistance + owed.epsilon, slack);
+        cell, k, p, k.contactPair.contactDistance - p.contactPair.contactDistance + contract.epsilon, slack);
 }
 
-double answerRank(const PairInCell& k, const ErrorContract& owed) {
-    const double limit = k.contactPair.contactDistance + owed.epsilon;
-    return owed.yesNo() ? k.squared - limit * limit : k.gap;
+double answerRank(const PairInCell& k, const ErrorContract& contract) {
+    const double limit = k.contactPair.contactDistance + contract.epsilon;
+    return contract.yesNo() ? k.squared - limit * limit : k.gap;
 }
 
-double rankNeeded(const PairInCell& p, const ErrorContract& owed) {
-    if (!owed.yesNo()) return p.gap + owed.epsilon;
+double rankNeeded(const PairInCell& p, const ErrorContract& contract) {
+    if (!contract.yesNo()) return p.gap + contract.epsilon;
     return largestLambda *
            std::max(0.0, p.squared - p.contactPair.contactDistance * p.contactPair.contactDistance);
 }

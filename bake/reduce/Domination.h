@@ -19,11 +19,11 @@ struct PairInCell : PairDistanceBounds {
 /// difference). Shown with squared distances: the difference of two of them is nearly linear for neighbouring
 /// pairs, so that cells stay large. A member k answers with the contract's epsilon; for a k that is no member
 /// pass a contract with epsilon 0. band: rounding error of distances, scene units.
-bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p, const ErrorContract& owed,
-               double band);
+bool dominates(const CellMotion& cell, const PairInCell& k, const PairInCell& p,
+               const ErrorContract& contract, double band);
 
 /// A cheap necessary condition: k cannot dominate p unless answerRank(k) < rankNeeded(p).
-double answerRank(const PairInCell& k, const ErrorContract& owed);
-double rankNeeded(const PairInCell& p, const ErrorContract& owed);
+double answerRank(const PairInCell& k, const ErrorContract& contract);
+double rankNeeded(const PairInCell& p, const ErrorContract& contract);
 
 } // namespace tss

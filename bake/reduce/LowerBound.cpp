@@ -12,13 +12,14 @@ namespace tss {
 
 namespace {
 
-/// The pairs that answer at a pose; none when nothing is owed there.
-std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContract& owed, const Pose& at) {
+/// The pairs that answer at a pose; none where the contract asks for nothing.
+std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContract& contract,
+                                  const Pose& at) {
     double models = std::numeric_limits<double>::infinity();
     std::vector<std::pair<double, SpherePair>> near;
     // The contract is about gaps counted from where contact begins, which are no smaller than those of the
     // spheres: the visit misses none.
-    visitPairsWithin(problem.treeA, problem.treeB, at, owed.margin + owed.epsilon,
+    visitPairsWithin(problem.treeA, problem.treeB, at, contract.margin + contract.epsilon,
                      [&](std::uint32_t i, std::uint32_t j, double) {
                          const std::optional<ContactPair> pair = problem.contactPair({i, j});
                          if (!pair) return;
@@ -27,20 +28,20 @@ std::vector<SpherePair> answersAt(const CoverProblem& problem, const ErrorContra
                          models = std::min(models, gap);
                      });
     std::vector<SpherePair> pairs;
-    if (models > owed.margin) return pairs;
+    if (models > contract.margin) return pairs;
     for (const auto& [gap, pair] : near)
-        if (gap <= owed.answer(models) + problem.band) pairs.push_back(pair);
+        if (gap <= contract.answer(models) + problem.band) pairs.push_back(pair);
     std::sort(pairs.begin(), pairs.end());
     return pairs;
 }
 
 } // namespace
 
-std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& owed,
+std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& contract,
                                           const std::vector<std::vector<double>>& poses, std::size_t most) {
     std::vector<PoseConstraint> constraints(poses.size());
     parallelFor(poses.size(), [&](std::size_t k) {
-        constraints[k] = {poses[k], answersAt(problem, owed, pose(problem.motion, poses[k]))};
+        constraints[k] = {poses[k], answersAt(problem, contract, pose(problem.motion, poses[k]))};
     });
     std::erase_if(constraints,
                   [&](const PoseConstraint& d) { return d.pairs.empty() || d.pairs.size() > most; });

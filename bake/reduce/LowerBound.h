@@ -13,7 +13,7 @@ struct PoseConstraint {
 
 /// The constraint of each pose: all pairs that answer there. Left out are poses at which nothing has to be
 /// answered, and those with more than `most` pairs.
-std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& owed,
+std::vector<PoseConstraint> constraintsAt(const CoverProblem& problem, const ErrorContract& contract,
                                           const std::vector<std::vector<double>>& poses, std::size_t most);
 
 /// A small list of pairs that satisfies constraints, and a lower bound of the length of all such lists.
