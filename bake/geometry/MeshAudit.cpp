@@ -4,7 +4,7 @@
 #include "bake/base/UnionFind.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/Bvh.h"
-#include "bake/geometry/TriangleDistance.h"
+#include "bake/geometry/TrianglePoint.h"
 
 #include <fmt/format.h>
 

@@ -5,6 +5,7 @@
 
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/TriangleDistance.h"
+#include "bake/geometry/TrianglePoint.h"
 
 #include <algorithm>
 #include <array>

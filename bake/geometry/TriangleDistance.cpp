@@ -1,6 +1,7 @@
 #include "bake/geometry/TriangleDistance.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/geometry/TrianglePoint.h"
 
 #include <algorithm>
 

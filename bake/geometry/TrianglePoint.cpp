@@ -1,6 +1,6 @@
 // The regions of a triangle after Ericson, "Real-Time Collision Detection", 2005, 5.1.5; the solid angle
 // after Van Oosterom and Strackee, "The solid angle of a plane triangle", 1983.
-#include "bake/geometry/TriangleDistance.h"
+#include "bake/geometry/TrianglePoint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/TriangleDistance.h"
+#include "bake/geometry/TrianglePoint.h"
 #include "bake/motion/PoseBlend.h"
 
 #include <algorithm>
