@@ -10,10 +10,10 @@
 
 namespace tss {
 
-/// Takes up to `width` jobs from the end of a list and runs them in parallel: run(job, count), where count is
-/// how many run, returns a result whose member `left` lists the jobs that replace this one in the list.
-/// Returns the results, that of the last job first. The same for any number of threads if each result depends
-/// on its job alone.
+/// One round of a parallel depth-first search: removes up to `width` jobs from the end of a list and runs
+/// each by run(job, number of jobs of the round). The member `left` of each result, jobs that are still to be
+/// done, is appended to the list. Returns the results, that of the last job first. The same for any
+/// number of threads if each result depends on its job alone.
 template <class Job, class Run>
 auto runLast(std::vector<Job>& jobs, std::size_t width, const Run& run) {
     const std::size_t count = std::min(width, jobs.size());

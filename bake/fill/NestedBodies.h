@@ -21,14 +21,14 @@ struct Nesting {
     double apart() const { return undecided ? std::max(settled, deepest) : settled; }
 };
 
-/// Whether a connected part of one body's surface ever stands inside the other body's solid, its openings
-/// closed, while the surfaces are farther apart than `reach`, > 0: not contact, though solids that are filled
-/// would say so. Branch and bound over Q: a part is not inside all over a cell where one of its vertices
-/// stays outside, a ball that it encloses has no room, or the surfaces stay within reach of each other; where
-/// the effort will not suffice to show that, random steps look for a pose inside. Where neither `outer` nor
-/// `undecided` is set that is proven for all of Q. (What reaches into an opening without being inside as a
-/// whole findHollow() looks for.) Surfaces from three quarters of the reach on may count as farther. The same
-/// for any number of threads.
+/// Whether at some pose of Q a connected part of one body's surface is wholly inside the other body (its
+/// openings closed) while the surfaces are farther apart than `reach`, > 0. That is no contact, but spheres
+/// that fill the outer body would report it. Branch and bound over Q: a cell is done where one vertex of the
+/// part stays outside, where a ball inside the part does not fit, or where the surfaces stay within reach of
+/// each other. Where that takes too much effort, random steps look for a pose with the part inside. If
+/// neither `outer` nor `undecided` is set, it is proven that there is no such pose. Distances between three
+/// quarters of the reach and the reach may count as either. A part that only reaches into an opening is the
+/// business of findHollow(). The same result for any number of threads.
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
                    const Progress& progress = {});
 

@@ -6,9 +6,9 @@
 
 namespace tss {
 
-/// Shares of the reach. Surfaces nearer than `settledShare` do not count as apart: spheres on them touch,
-/// even as protrusionFor() makes them. Surfaces farther than `apartShare` count as apart. In between either
-/// verdict will do, so that small cells can be decided.
+/// Shares of the reach. Surfaces nearer than `settledShare` of it may count as near: spheres on them touch,
+/// even as protrusionFor() makes them. Surfaces farther than `apartShare` of it may count as apart. In the
+/// overlap of both either verdict is right, so that every cell is decided once it is small enough.
 constexpr double settledShare = 0.85, apartShare = 0.75;
 
 /// Whether some part of the inner body's surface ever stands inside the outer body. Asked twice, with each

@@ -73,7 +73,8 @@ void expectShallow(const Json& gltf, const std::string& file) {
     }
 }
 
-/// Whatever else a file needs may change its surfaces: where its coordinates are packed, or stand elsewhere.
+/// Throws InputError for a required extension that is not known to leave the surfaces as they are: it may
+/// compress the coordinates or keep them elsewhere.
 void expectKnown(const Json& gltf, const std::string& file) {
     constexpr std::array harmless = {"KHR_materials_",
                                      "KHR_texture_",
@@ -96,7 +97,7 @@ void expectKnown(const Json& gltf, const std::string& file) {
     }
 }
 
-/// assimp takes the bytes of others for floats.
+/// Throws InputError for positions of another number type: assimp would take their bytes for floats.
 void expectFloats(const Json& gltf, const std::string& file) {
     const Json accessors = gltf.value("accessors", Json::array());
     for (const Json& mesh : gltf.value("meshes", Json::array()))

@@ -35,10 +35,10 @@ struct ImportedNode {
     TriangleMesh mesh;                                   ///< in the node's
 };
 
-/// The same with each node that has meshes for itself. Throws as importMesh() does.
+/// The same, but each node that has meshes stays a mesh of its own. Throws as importMesh() does.
 std::vector<ImportedNode> importNodes(const std::string& file, MeshFileNotes* notes = nullptr);
 
-/// The notes for people; one too where the unit that the mesh is taken to be in is not the file's own.
+/// The notes as sentences, and a warning where metersPerUnit is not the unit that the file states.
 std::vector<std::string> remarks(const std::string& file, const MeshFileNotes& notes, double metersPerUnit);
 
 /// The file is a glTF, or an avatar as one (VRM), whose Y axis is up and whose unit is the metre, always.

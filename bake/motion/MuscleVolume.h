@@ -9,12 +9,12 @@ namespace tss {
 /// The volume enclosed by a closed mesh, positive when it is outward oriented.
 double enclosedVolume(const std::vector<Vec3>& vertices, const std::vector<Tri>& triangles);
 
-/// The mesh with its openings closed: what the volume of a muscle is that of.
+/// The mesh with its openings closed by flat fans: a muscle's volume is what this encloses.
 TriangleMesh closed(TriangleMesh mesh);
 
-/// How large the openings of a mesh are, each seen from where it is seen largest, as a share of its area.
+/// The area of a mesh's openings as a share of its own, each projected where it is largest.
 double openShare(const TriangleMesh& mesh);
-/// Openings larger than this leave it to guess what the volume of a muscle is.
+/// Above this share of openings a muscle's volume is not well defined, and the muscle is refused.
 constexpr double mostOpenShare = 0.25;
 
 /// Whether the volume of a mesh, its openings closed, is positive by more than the rounding of a flat one.

@@ -4,8 +4,8 @@
 
 namespace tss {
 
-/// The triangles of a skin on their way from station to station, in a hierarchy whose boxes are set anew at
-/// each: which of them something came near to, there or since the last.
+/// The triangles of a skin that moves from one sampled state (station) to the next, in a box tree that is
+/// refitted at each: finds the triangles that a point comes near to, at a station or on the way to it.
 class MovingTriangles {
 public:
     explicit MovingTriangles(TriangleMesh rest);
@@ -20,8 +20,8 @@ public:
     const Vec3& moveOf(std::size_t vertex) const { return moves_[vertex]; }
 
     struct Met : NearestPoint {
-        double half = 0; ///< half of how far both have come against one another: by so much they may have
-                         ///< been nearer on the way
+        double half = 0; ///< half the length of their relative motion since the last station: on the way
+                         ///< they may have been nearer by this
     };
     /// Points that are asked about together.
     struct Group {
@@ -46,7 +46,7 @@ private:
     };
     Bounds boundsOf(std::uint32_t triangle) const;
     bool hasChanged(std::uint32_t triangle) const;
-    /// Whether a node that comes so near to a group may hold what nearest() finds.
+    /// Whether nearest() may find something in a node at this squared distance from the group.
     bool counts(std::uint32_t node, const Group& group, double distance2, double reach,
                 bool onlyChanged) const;
     double halfOf(std::uint32_t triangle, const Vec3& weights, const Vec3& move) const;

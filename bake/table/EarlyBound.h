@@ -3,9 +3,9 @@
 
 namespace tss {
 
-/// How far apart the bodies may be where contact is reported, each the solid that its spheres were made for:
-/// its openings filled. Their surfaces are no farther apart either, unless one body stands inside the other;
-/// where that is excluded, boundEarly says so. None: not known.
+/// A bound of the distance of the two solids, openings filled, where contact is reported: both protrusions
+/// and epsilon. It bounds the distance of the surfaces too, unless one body stands wholly inside the other;
+/// Table::boundEarly holds in that case as well. None: not known.
 inline std::optional<double> earlyOfSolids(const Table& table) {
     const std::optional<double> a = table.record.fitA.protrusion, b = table.record.fitB.protrusion;
     if (!table.certified || !a || !b) return std::nullopt;

@@ -8,13 +8,13 @@
 
 namespace tss {
 
-/// The limits of a DOF in parts of equal width.
+/// The limits of a DOF divided into parts of equal width.
 struct EvenParts {
     double lower = 0, width = 0; ///< of the first part
 };
 
-/// They reach a little over the limits, so that what rounding puts beyond those lies in a part, and so that a
-/// DOF without a range has a width.
+/// The parts extend slightly beyond the limits, so that a value that rounding puts outside still lies in a
+/// part, and so that parts of a DOF without a range have a width.
 inline EvenParts evenParts(const Dof& dof, std::uint32_t count) {
     const double range = dof.upper - dof.lower;
     const double size = std::max(std::abs(dof.lower), std::abs(dof.upper));

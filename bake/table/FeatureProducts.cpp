@@ -63,10 +63,11 @@ private:
     std::vector<Step> steps_;
 };
 
-/// Bounds, one a pair, of how far the sum of all products may be off anywhere in the limits because the
-/// squared distances at the poses (`squares`, #pairs by #poses) are rounded. A DOF's three weights are v,
-/// (v+ - v-) / 2 first and (v+ + v- - 2 v) / 2 second; over the limits its factors are no more than 1.003 and
-/// 2.15 times what they are at the poses, so that together the three make an error at most 7 times as large.
+/// For each pair a bound of the error of the sum of all products anywhere in the limits, which comes from the
+/// rounding of the squared distances that the weights are made from (`squares`, #pairs by #poses). From the
+/// values v, v+, v- at the three poses of a DOF its weights are v, (v+ - v-) / 2 over the first factor there
+/// and (v+ + v- - 2 v) / 2 over the second. Over the limits the factors are at most 1.003 and 2.15 times as
+/// large as at the poses, so that a DOF multiplies the error by at most 7.
 Eigen::VectorXd makingErrors(const Motion& motion, std::span<const TablePair> pairs,
                              const RealMatrix& squares) {
     double farthest = 0;

@@ -30,7 +30,7 @@ HWY_INLINE V all(double value) {
     return hn::Set(Doubles(), value);
 }
 
-/// x y z of one row times a vector, and what comes to it.
+/// The row (x, y, z) times the column (a, b, c), plus `sum`.
 HWY_INLINE V rowTimes(V x, V y, V z, V a, V b, V c, V sum) {
     return hn::MulAdd(x, a, hn::MulAdd(y, b, hn::MulAdd(z, c, sum)));
 }
@@ -50,7 +50,7 @@ void compose(const BodyLanes& parent, const PoseLanes& own, BodyLanes& out) {
     });
 }
 
-/// One coordinate of where a point of the body's frame is.
+/// One coordinate, outside of the body's frame, of a point given in it. row: the first number of its row.
 HWY_INLINE V coordinate(const BodyLanes& body, int row, const Vec3& point, std::uint32_t lane) {
     return rowTimes(load(body, row, lane), load(body, row + 1, lane), load(body, row + 2, lane),
                     all(point.x()), all(point.y()), all(point.z()), load(body, row + 3, lane));

@@ -13,9 +13,9 @@ struct TouchingPose {
     std::uint32_t test = 0;
 };
 
-/// At most `most` of these deepest tests, the one first that touches at most of the poses, then always the
-/// one that touches at most of those where none before it does: asked before all others they end most
-/// questions of poses that touch, and change no answer.
+/// A greedy cover of the poses by at most `most` of these deepest tests: first the test that touches at the
+/// largest number of poses, then again and again the one that touches at most of the poses not yet covered.
+/// Asked before all others, these end most queries at poses that touch; they change no answer.
 std::vector<std::uint32_t> likelyTests(std::span<const TablePair> pairs,
                                        const std::vector<TouchingPose>& poses, std::size_t most);
 

@@ -7,18 +7,18 @@
 
 namespace tss {
 
-/// The limits of a motion cut into cells, those where contact begins more finely, and for every cell how near
-/// the tests of each block of the kernels can come anywhere in it (METHOD 4, cells): a query leaves out what
-/// cannot matter where the joint stands.
-/// A gap is kept as a code of one byte. A larger gap never has a smaller code: whatever test would matter by
-/// its gap matters by its code too.
+/// The limits of a motion divided into cells, smaller ones where contact begins. For each cell and each block
+/// of tests (as the kernels read them) it stores a lower bound of the gaps of the block's tests in the cell
+/// (METHOD 4, cells), so that a query skips the blocks that cannot matter where the joint stands.
+/// A bound is stored as a code of one byte, which never decreases as the gap grows: a block that
+/// matters by its gap also matters by its code.
 class TableCells {
 public:
-    /// Codes of gaps up to 0 and above it part here.
+    /// The largest code of a gap <= 0.
     static constexpr std::uint8_t contactCode = 64;
-    /// Every test of a smaller code is known in every cell.
+    /// Smaller codes are stored in every cell; gaps from here on may be stored as farCode.
     static constexpr std::uint8_t nearCode = 160;
-    /// Stands for "farther than what matters": not to be compared with.
+    /// "Farther than what matters": no order between such gaps.
     static constexpr std::uint8_t farCode = 255;
     static constexpr std::uint32_t codesPerGroup = NearBlocks::codesPerGroup;
     static constexpr std::uint32_t headerCodes = NearBlocks::headerCodes;
@@ -33,8 +33,8 @@ public:
     /// share blocks.
     const std::vector<std::uint32_t>& order() const { return order_; }
 
-    /// The row of codes of the cell that q is in; beyond the limits, that of no cell, where every block may
-    /// touch.
+    /// The index of the row of codes for the cell that q is in. Beyond the limits it is row 0, by which every
+    /// block may touch.
     std::uint32_t rowAt(const double* q) const {
         std::uint32_t cell = 0, part = 0, beyond = 0;
         for (std::size_t k = 0; k < dofs_; ++k) {
@@ -56,13 +56,13 @@ public:
     NearBlocks nearBlocks(std::uint32_t row, std::uint8_t limit) const {
         return {rows_.data() + std::size_t(row) * rowCodes_, rowCodes_ / codesPerGroup, limit};
     }
-    /// Everywhere in the cell some test's gap is so small. farCode: not known.
+    /// An upper bound of the table's gap all over the cell. farCode: not known.
     std::uint8_t reachedCode(std::uint32_t row) const { return rows_[std::size_t(row) * rowCodes_]; }
     /// Some test touches at every pose of the cell.
     bool allTouch(std::uint32_t row) const { return reachedCode(row) <= contactCode; }
     /// No test touches anywhere in the cell.
     bool noneTouches(std::uint32_t row) const { return nearestCode(row) > contactCode; }
-    /// No gap of the cell has a lower code.
+    /// A lower bound of the codes of all gaps in the cell.
     std::uint8_t nearestCode(std::uint32_t row) const { return rows_[std::size_t(row) * rowCodes_ + 1]; }
 
     /// The code of a gap, scene units.

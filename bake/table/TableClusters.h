@@ -7,19 +7,19 @@
 
 namespace tss {
 
-/// A pair of spheres that bounds some pairs from below: at every pose its gap, the distance of its centres
-/// less its contact distance, is at most the gap of each of them. Its radii are not told apart, only their
-/// sum in contact distance.
+/// A bounding pair of spheres: at every pose its gap, the distance of its centres less its contact distance,
+/// is at most the gap of each of the given pairs. Only its contact distance is set, the sum of both radii,
+/// not the radii themselves.
 TablePair boundOf(std::span<const TablePair> pairs);
 
-/// The tests of a large table in clusters of equally many whole blocks, those together whose spheres lie
-/// near one another in both bodies, clusters in groups, and these in groups again until few are left
-/// (METHOD 4). Each is bounded by one pair of spheres: where these two are apart by some margin all of its
-/// tests are. For tables over many DOFs, whose limits are too wide for cells.
+/// A bounding hierarchy over the tests of a large table (METHOD 4). Tests whose spheres lie near one another
+/// in both bodies make a cluster, all of the same number of whole blocks; clusters make groups, and groups
+/// larger groups until few are left. Each has a bounding pair: where that is apart by some margin, so are
+/// all tests below. For tables over many DOFs, whose limits are too wide for cells.
 class TableClusters {
 public:
-    /// At most so many groups of the last level, and so many of a level in one of the next unless a vector
-    /// has more lanes: a query lists those of one without allocating.
+    /// The most groups of the top level, and the most members of a group (more where a vector has more
+    /// lanes): few enough for a query to list without allocating.
     static constexpr std::uint32_t mostAtTop = 256, mostOfGroup = 16;
 
     TableClusters() = default;
@@ -32,8 +32,8 @@ public:
     const std::vector<std::uint32_t>& order() const { return order_; }
     std::size_t testsEach() const { return testsEach_; }
 
-    /// Level 0: the pair that bounds each cluster from below (boundOf()). Of each level above, number g
-    /// bounds those of the level below from g * ofGroup() on, whole blocks of them too.
+    /// Bounding pairs (boundOf()), level 0 of the clusters. Pair g of a level above bounds the ofGroup()
+    /// pairs from g * ofGroup() on of the level below, which are whole blocks too.
     std::span<const std::vector<TablePair>> levels() const { return levels_; }
     std::size_t ofGroup() const { return ofGroup_; }
 
