@@ -19,13 +19,13 @@ struct MeshFileNotes {
 /// vertices at exactly the same place made one (in the order of their first use), points and lines left out.
 /// A skinned mesh stands where its bones in the file take it, as nothing else says how large it is and which
 /// of its ways is up. Nothing is turned: whatever way is up in the file, the numbers stay (Collada's in
-/// metres). Nothing else is repaired: see auditMesh() and cleaned(). assimp holds coordinates as floats, so that at most 7 digits of a
-/// file survive: a mesh far from the origin of its file loses detail (at 1e7 units a float is 1 unit wide).
-/// Other files that it names are read where they lie in its folder or below. Throws InputError: no such file,
-/// a format or content that cannot be read, also where its reader crashes or takes all memory, no triangle in
-/// it, a corner that is not finite or not there, a face of more than 10,000 corners, or a build without
-/// OSGTSS_IMPORT. notes, where given, receives what else the file says and holds: animations, bones, shapes
-/// to blend to, cameras, lights, points and lines are left out.
+/// metres). Nothing else is repaired: see auditMesh() and cleaned(). assimp holds coordinates as floats, so
+/// that at most 7 digits of a file survive: a mesh far from the origin of its file loses detail (at 1e7 units
+/// a float is 1 unit wide). Other files that it names are read where they lie in its folder or below. Throws
+/// InputError: no such file, a format or content that cannot be read, also where its reader crashes or takes
+/// all memory, no triangle in it, a corner that is not finite or not there, a face of more than 10,000
+/// corners, or a build without OSGTSS_IMPORT. notes, where given, receives what else the file says and holds:
+/// animations, bones, shapes to blend to, cameras, lights, points and lines are left out.
 TriangleMesh importMesh(const std::string& file, MeshFileNotes* notes = nullptr);
 
 /// One node of a file with the meshes that hang on it.
