@@ -60,12 +60,10 @@ Json regionOf(const RestRegion& region, const SceneModel& scene, const Pair& pai
     if (region.empty()) return nullptr;
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
     const double areaA = area(a, region.a), areaB = area(b, region.b);
-    // Of a surface without area, wires, any exempt part counts as all of it.
-    const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 1; };
     return {{"areaA", areaA},
             {"areaB", areaB},
-            {"shareA", share(areaA, area(a))},
-            {"shareB", share(areaB, area(b))},
+            {"shareA", areaA / area(a)},
+            {"shareB", areaB / area(b)},
             {"depth", region.depth < 0 ? Json() : Json(region.depth)}};
 }
 

@@ -60,13 +60,12 @@ VerifiedBody::VerifiedBody(const TriangleMesh& mesh) : mesh(mesh), surface(mesh)
 }
 
 ExemptShare exemptShare(const TriangleMesh& a, const TriangleMesh& b, const RestRegion& region) {
-    // Of a surface without area, wires, any exempt part counts as all of it.
-    const auto shareOf = [](const TriangleMesh& mesh, double exempt, bool some) {
+    const auto shareOf = [](const TriangleMesh& mesh, double exempt) {
         const double whole = area(mesh);
-        return whole > 0 ? exempt / whole : some ? 1 : 0;
+        return whole > 0 ? exempt / whole : 0;
     };
     const double areaA = area(a, region.a), areaB = area(b, region.b);
-    return {areaA, areaB, shareOf(a, areaA, !region.a.empty()), shareOf(b, areaB, !region.b.empty())};
+    return {areaA, areaB, shareOf(a, areaA), shareOf(b, areaB)};
 }
 
 RegionVerdict judgeRegion(const VerifiedBody& a, const VerifiedBody& b, const Motion& motion,
