@@ -1,6 +1,5 @@
 #include "bake/pipeline/FirstLook.h"
 
-#include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -30,12 +30,19 @@ double oneDigitBelow(double value) {
     return std::floor(value / digit * (1 + 1e-6)) * digit;
 }
 
-/// Whether the surfaces of the pair are shown never to meet before the time is over.
-bool staysApart(const SceneModel& scene, const Pair& pair, const Stopwatch& watch) {
-    constexpr double seconds = 5;
+/// Seconds of processor time of all threads of this program: other programs take none of them.
+double processSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Whether the surfaces of the pair are shown never to meet before this program has run for so many seconds:
+/// what is proposed must not hang on what else runs.
+bool staysApart(const SceneModel& scene, const Pair& pair, double until) {
     const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
     const Motion motion = onceRound(pairMotion(scene, pair));
-    const auto inTime = [&](std::string_view, double) { return watch.seconds() < seconds; };
+    const auto inTime = [&](std::string_view, double) { return processSeconds() < until; };
     return inTime("", 0) &&
            surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), inTime).has_value();
 }
@@ -86,9 +93,10 @@ double firstTolerance(const SceneModel& scene, const std::vector<double>& distan
         if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > least && room < usual)
             rooms.emplace_back(room, &scene.pairs[k]);
     std::ranges::sort(rooms, {}, &std::pair<double, const Pair*>::first);
-    const Stopwatch watch;
+    constexpr double seconds = 10; // five on two cores
+    const double until = processSeconds() + seconds;
     for (const auto& [room, pair] : rooms)
-        if (!staysApart(scene, *pair, watch)) return oneDigitBelow(room) / millimetres;
+        if (!staysApart(scene, *pair, until)) return oneDigitBelow(room) / millimetres;
     return usual / millimetres;
 }
 

@@ -18,8 +18,8 @@ double usualTolerance(const SceneModel& scene);
 
 /// The tolerance for a first look at such pairs, scene units: the usual one, but no more than three tenths of
 /// the distance of any two meshes at rest, so that the spheres of both bodies together leave some of it.
-/// Pairs whose surfaces are shown within some seconds to stay apart do not count: they need no spheres. Nor
-/// do those for which it would be less than a hundredth of the usual one.
+/// Pairs whose surfaces are shown within ten seconds of processor time to stay apart do not count: they need
+/// no spheres. Nor do those for which it would be less than a hundredth of the usual one.
 double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest);
 
 /// The budget, seconds per pair, with which baking all pairs of a scene takes some minutes.

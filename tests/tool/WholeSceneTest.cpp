@@ -3,6 +3,7 @@
 #include "tests/tool/Swing.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -369,4 +370,30 @@ TEST_CASE("of many joints that overlap at rest only the best move of each is sai
         CHECK(all > static_cast<std::size_t>(k));
         CHECK(said == (k > 3 ? 4 : all));
     }
+}
+
+TEST_CASE("make proposes the same tolerance where other programs take the processor's time") {
+    const Folder folder;
+    // Two balls that roll on each other, 10 mm apart: that they never meet takes half a second to show.
+    writeObj(ballMesh({0, 0, -1}, 1, 5), folder / "block.obj");
+    writeObj(ballMesh({0, 0, 1.01}, 1, 5), folder / "lid.obj");
+    writeObj(boxMesh({2, -0.2, 0.6}, {2.6, 0.2, 0.8}), folder / "arm.obj");
+    writeObj(boxMesh({2.4, -0.2, 0.9}, {3, 0.2, 1.1}), folder / "hand.obj");
+    const std::string make = "make -o out.tss --body block.obj --body lid.obj --body arm.obj --body hand.obj "
+                             "--joint 'wrist=arm,hand:rot:2.5,0,0.85:0,0,1:-9:9;rot:2.5,0,0.85:1,0,0:-1:1' "
+                             "--joint 'elbow=lid,arm:rot:2.1,0,0.55:0,0,1:-9:9' --joint "
+                             "'roll=block,lid:rot:0,0,1.01:1,0,0:-20:20'";
+    const Ran alone = runTss(make, folder.path());
+    INFO(alone.err);
+    REQUIRE(alone.exit == 0);
+    // Runs for a tenth of a second at a time, three seconds apart.
+    writeText(folder / "slowly.sh",
+              "echo $$ >pid; exec '" TSS_PROGRAM "' " + make + " >out 2>err </dev/null");
+    const std::string slowly =
+        "cd '" + folder.path().string() +
+        "' && { (sh slowly.sh; touch done) & until [ -e done ]; do sleep 0.1; "
+        "kill -STOP $(cat pid); sleep 3; kill -CONT $(cat pid); done; wait; } 2>/dev/null";
+    REQUIRE(std::system(slowly.c_str()) == 0);
+    const auto proposed = [](const std::string& said) { return said.substr(said.find("; next: tss bake")); };
+    CHECK(proposed(readText(folder / "out")) == proposed(alone.out));
 }
