@@ -108,6 +108,11 @@ void writeSpheres(Layer& layer, const std::string& tablePath, const Attribute& r
 SchemaType sphereSchema();
 /// What went into a table or a proof.
 const Fields<BakeRecord>& recordFields();
+/// The exempt parts of a pair's surfaces, which its table or proof states: by body, triangles and cuts.
+extern const Attribute restParts[2][2];
+extern const Attribute restDepth;
+RestRegion readRegion(const SceneReading& reading, const PrimReader& prim, const Pair& pair);
+void writeRegion(PrimWriter& prim, const RestRegion& region);
 
 template <class Items>
 std::vector<std::string> pathsOf(const Items& items, const std::vector<int>& indices) {

@@ -190,23 +190,23 @@ private:
     void writeProperties(const Prim& prim) {
         // Other programs would round what has no such word; the faces are what osgTSS has proven.
         static const std::string scheme(schema::subdivisionScheme.name);
-        bool owed = prim.typeName == "Mesh" && prim.specifier != "over";
-        const auto pay = [&] {
+        bool missing = prim.typeName == "Mesh" && prim.specifier != "over";
+        const auto writeScheme = [&] {
             Property none;
             none.typeName = schema::subdivisionScheme.typeName;
             none.defaultValue = Value("none");
             none.other["variability"] = Value("uniform");
             write(scheme, none);
-            owed = false;
+            missing = false;
         };
         for (const auto& [name, property] : prim.properties) {
-            if (owed && name >= scheme) {
-                pay();
+            if (missing && name >= scheme) {
+                writeScheme();
                 if (name == scheme) continue;
             }
             write(name, property);
         }
-        if (owed) pay();
+        if (missing) writeScheme();
     }
 
     void write(const std::string& name, const Property& property) {
