@@ -47,6 +47,20 @@ Table hingeWithObstacle(double angle, double lower, double upper) {
     return makeTable(a, b, {{0, 0}}, {}, m);
 }
 
+/// Along x and y, each 50 either way.
+Motion slidesInPlane() {
+    Motion m;
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
+        Dof d;
+        d.kind = DofKind::Translation;
+        d.axis = axis;
+        d.lower = -50;
+        d.upper = 50;
+        m.dofs.push_back(d);
+    }
+    return m;
+}
+
 } // namespace
 
 TEST_CASE("from a free start a joint never ends in collision and never farther from what was asked") {
@@ -143,16 +157,8 @@ TEST_CASE("an asked value that is no number leaves its joint where it was, free 
 }
 
 TEST_CASE("a wheel on a slope slides along it to the nearest pose") {
-    // Two slides, x and y; the obstacle is one large sphere under the moving small one.
-    Motion m;
-    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
-        Dof d;
-        d.kind = DofKind::Translation;
-        d.axis = axis;
-        d.lower = -50;
-        d.upper = 50;
-        m.dofs.push_back(d);
-    }
+    // The obstacle is one large sphere under the moving small one.
+    const Motion m = slidesInPlane();
     Table table = makeTable({{Vec3(0, 0, 0), 10.0}}, {{Vec3(0, 0, 0), 1.0}}, {{0, 0}}, {}, m);
     SECTION("lossless") {
         table.epsilon = 0;
@@ -170,15 +176,7 @@ TEST_CASE("a wheel on a slope slides along it to the nearest pose") {
 }
 
 TEST_CASE("limits and couplings hold while a joint slides") {
-    Motion m;
-    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
-        Dof d;
-        d.kind = DofKind::Translation;
-        d.axis = axis;
-        d.lower = -50;
-        d.upper = 50;
-        m.dofs.push_back(d);
-    }
+    Motion m = slidesInPlane();
     m.planes = {{{0.0, 1.0}, 8.0}}; // y <= 8
     const Table table = makeTable({{Vec3(0, 0, 0), 10.0}}, {{Vec3(0, 0, 0), 1.0}}, {{0, 0}}, {}, m);
     const std::vector<double> from{-20, 5}, to{-3, 30};

@@ -7,16 +7,6 @@
 
 using namespace tss;
 
-namespace {
-
-const Body& bodyCalled(const SceneModel& scene, const std::string& name) {
-    const int body = findBody(scene, "/" + scene.defaultPrim + "/" + name);
-    if (body < 0) FAIL("no body " << name);
-    return scene.bodies[body];
-}
-
-} // namespace
-
 TEST_CASE("rigid bodies with colliders below them and a hinge are a scene with a pair") {
     const RobotScene made = robotScene(twoBoxes(hinge));
     const SceneModel& scene = made.scene;

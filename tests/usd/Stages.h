@@ -1,11 +1,8 @@
 #pragma once
-#include "bake/base/Error.h"
-#include "bake/robot/RobotScene.h"
 #include "bake/usd/Stage.h"
 #include "bake/usd/UsdRobot.h"
+#include "tests/robot/Robots.h"
 
-#include <catch2/catch.hpp>
-#include <functional>
 #include <map>
 
 /// Files of a stage, by name; the first one is "root.usda".
@@ -34,24 +31,8 @@ inline tss::RobotScene robotScene(const std::string& body) {
     return tss::sceneOf(tss::robotOf(stageOf(body), "root.usda"), {}, none);
 }
 
-/// What the work throws; empty when nothing.
-inline std::string refusal(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const tss::InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 inline std::string refusalOf(const std::string& body) {
     return refusal([&] { stageOf(body); });
-}
-
-inline bool hasNote(const std::vector<std::string>& notes, const std::string& words) {
-    for (const std::string& note : notes)
-        if (note.find(words) != std::string::npos) return true;
-    return false;
 }
 
 inline const tss::Prim& primAt(const tss::UsdStage& stage, const std::string& path) {
