@@ -112,7 +112,6 @@ namespace tss {
 
 PairTree::Kernel pairTreeKernel(KernelTarget target) {
     TSS_TARGETS(kernel())
-    (void)target;
     return HWY_STATIC_DISPATCH(kernel)(); // what this build may always use
 }
 

@@ -71,7 +71,6 @@ namespace tss {
 void addContact(KernelTarget target, KernelSet& set) {
     const auto kernel = [target]() -> decltype(set.contact) {
         TSS_TARGETS(contact)
-        (void)target;
         return plainContact;
     };
     set.contact = kernel();

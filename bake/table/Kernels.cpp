@@ -7,7 +7,6 @@ KernelSet makeKernels(KernelTarget target, const KernelShape& shape) {
     if (target == KernelTarget::Best) target = bestTarget();
     KernelSet set;
     addQueries<T>(target, shape, set);
-    addCrowd<T>(target, shape, set);
     addPoses<T>(target, shape, set);
     addContact(target, set);
     return set;

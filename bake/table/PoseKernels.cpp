@@ -261,7 +261,7 @@ namespace tss {
 template <class T>
 void addPoses(KernelTarget target, const KernelShape& shape, KernelSet& set) {
     TSS_TARGETS(poses<T>(shape, set))
-    (void)target, (void)shape, (void)set;
+    (void)shape, (void)set;
 }
 template void addPoses<float>(KernelTarget, const KernelShape&, KernelSet&);
 template void addPoses<double>(KernelTarget, const KernelShape&, KernelSet&);

@@ -43,15 +43,17 @@ template <class Tag, std::uint32_t M>
 struct FoldForm {
     using D = Tag;
     static constexpr std::uint32_t values = M, columns = foldColumns(M);
+    /// The squared distance less the squared contact distance, and the squared distance.
     template <class Column>
     static HWY_INLINE V<D> offset(const V<D>* pose, Column column) {
-        V<D> sum = column(0);
-        for (std::uint32_t k = 0; k < M; ++k) sum = hn::MulAdd(column(k + 1), pose[k], sum);
-        return sum;
+        return plusFeatures(column(0), pose, column);
     }
     template <class Column>
     static HWY_INLINE V<D> square(const V<D>* pose, Column column) {
-        V<D> sum = column(M + 1);
+        return plusFeatures(column(M + 1), pose, column);
+    }
+    template <class Column>
+    static HWY_INLINE V<D> plusFeatures(V<D> sum, const V<D>* pose, Column column) {
         for (std::uint32_t k = 0; k < M; ++k) sum = hn::MulAdd(column(k + 1), pose[k], sum);
         return sum;
     }
@@ -63,25 +65,29 @@ struct DirectForm {
     using D = Tag;
     static constexpr std::uint32_t values = 12, columns = directColumns;
     template <class Column>
-    static HWY_INLINE V<D> axis(const V<D>* p, V<D> x, V<D> y, V<D> z, V<D> a) {
-        return hn::MulAdd(p[2], z, hn::MulAdd(p[1], y, hn::MulAdd(p[0], x, hn::Sub(p[3], a))));
-    }
-    template <class Column>
     static HWY_INLINE V<D> offset(const V<D>* p, Column column) {
-        const V<D> bx = column(0), by = column(1), bz = column(2);
-        const V<D> x = axis<Column>(p, bx, by, bz, column(3));
-        const V<D> y = axis<Column>(p + 4, bx, by, bz, column(4));
-        const V<D> z = axis<Column>(p + 8, bx, by, bz, column(5));
-        return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::MulSub(z, z, column(6))));
+        const Between t(p, column);
+        return hn::MulAdd(t.x, t.x, hn::MulAdd(t.y, t.y, hn::MulSub(t.z, t.z, column(6))));
     }
     template <class Column>
     static HWY_INLINE V<D> square(const V<D>* p, Column column) {
-        const V<D> bx = column(0), by = column(1), bz = column(2);
-        const V<D> x = axis<Column>(p, bx, by, bz, column(3));
-        const V<D> y = axis<Column>(p + 4, bx, by, bz, column(4));
-        const V<D> z = axis<Column>(p + 8, bx, by, bz, column(5));
-        return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+        const Between t(p, column);
+        return hn::MulAdd(t.x, t.x, hn::MulAdd(t.y, t.y, hn::Mul(t.z, t.z)));
     }
+    /// From the centre of A's sphere to that of B's.
+    struct Between {
+        V<D> x, y, z;
+        template <class Column>
+        HWY_INLINE Between(const V<D>* p, Column column) {
+            const V<D> bx = column(0), by = column(1), bz = column(2);
+            x = axis(p, bx, by, bz, column(3));
+            y = axis(p + 4, bx, by, bz, column(4));
+            z = axis(p + 8, bx, by, bz, column(5));
+        }
+        static HWY_INLINE V<D> axis(const V<D>* p, V<D> x, V<D> y, V<D> z, V<D> a) {
+            return hn::MulAdd(p[2], z, hn::MulAdd(p[1], y, hn::MulAdd(p[0], x, hn::Sub(p[3], a))));
+        }
+    };
     static constexpr std::uint32_t contactDistance = 7;
 };
 

@@ -1,4 +1,5 @@
-// The queries of one pose, against vectors of pairs.
+// The queries: of one pose against vectors of pairs, and of vectors of poses against one pair after the
+// other.
 #include "bake/table/VectorTargets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bake/table/QueryKernels.cpp"
@@ -121,6 +122,27 @@ std::uint32_t testsWithinNear(const KernelData& data, const void* pose, const Ne
     return allTestsWithin<Form>(SomeBlocks<Form>{data, near}, pose, margin, out);
 }
 
+template <class Form>
+void hits(const KernelData& rows, const void* poses, std::uint32_t stride, std::uint32_t count,
+          std::uint8_t* hit) {
+    using D = typename Form::D;
+    using T = hn::TFromD<D>;
+    const D d;
+    const std::uint32_t n = static_cast<std::uint32_t>(hn::Lanes(d));
+    const T* end = static_cast<const T*>(rows.end);
+    for (std::uint32_t i = 0; i < count; i += n) {
+        V<D> p[Form::values + 1];
+        for (std::uint32_t k = 0; k <= Form::values; ++k)
+            p[k] = hn::LoadU(d, static_cast<const T*>(poses) + std::size_t(k) * stride + i);
+        V<D> least = farthest<D>();
+        for (const T* row = static_cast<const T*>(rows.blocks); row < end; row += Form::columns)
+            least = smaller(least, Form::offset(p + 1, BroadcastColumn<D>{row}));
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(d, hn::Le(least, p[0]), bytes);
+        for (std::uint32_t k = 0; k < n; ++k) hit[i + k] = bytes[k / 8] >> (k % 8) & 1;
+    }
+}
+
 template <class D>
 void queriesIn(const KernelShape& shape, KernelSet& set) {
     withForm<D>(shape, [&](auto form) {
@@ -132,6 +154,7 @@ void queriesIn(const KernelShape& shape, KernelSet& set) {
         set.hitNear = hitNear<Form>;
         set.gapNear = gapNear<Form>;
         set.testsWithinNear = testsWithinNear<Form>;
+        set.hits = hits<Form>;
     });
 }
 template <class T>
@@ -150,32 +173,11 @@ void scalarQueries(const KernelShape& shape, KernelSet& set) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <hwy/targets.h>
-
 namespace tss {
-
-bool available(KernelTarget target) {
-    const auto has = [](std::int64_t bit) { return (hwy::SupportedTargets() & HWY_TARGETS & bit) != 0; };
-    switch (target) {
-    case KernelTarget::Best:
-    case KernelTarget::Scalar:
-        return true;
-    case KernelTarget::Sse2:
-        return has(HWY_SSSE3);
-    case KernelTarget::Avx2:
-        return has(HWY_AVX2);
-    case KernelTarget::Avx512:
-        return has(HWY_AVX3);
-    case KernelTarget::Neon:
-        return has(HWY_NEON);
-    }
-    return false;
-}
 
 template <class T>
 void addQueries(KernelTarget target, const KernelShape& shape, KernelSet& set) {
     TSS_TARGETS(queries<T>(shape, set))
-    (void)target;
     HWY_STATIC_DISPATCH(scalarQueries<T>)(shape, set);
 }
 template void addQueries<float>(KernelTarget, const KernelShape&, KernelSet&);

@@ -6,8 +6,8 @@
 #define HWY_DISABLED_TARGETS (HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #include <hwy/detect_targets.h>
 
-// TSS_TARGETS(call): returns `call` of the namespace that `target` names. Each namespace exists only where
-// this build compiles for it.
+// TSS_TARGETS(call): returns `call` of the namespace that `target` names, and goes on where there is none.
+// Each namespace exists only where this build compiles for it.
 #if HWY_TARGETS & HWY_SSSE3
 #define TSS_SSE2(call)                                                                                       \
     if (target == KernelTarget::Sse2) return N_SSSE3::call;
@@ -32,4 +32,6 @@
 #else
 #define TSS_NEON(call)
 #endif
-#define TSS_TARGETS(call) TSS_SSE2(call) TSS_AVX2(call) TSS_AVX512(call) TSS_NEON(call)
+#define TSS_TARGETS(call)                                                                                    \
+    (void)target;                                                                                            \
+    TSS_SSE2(call) TSS_AVX2(call) TSS_AVX512(call) TSS_NEON(call)
