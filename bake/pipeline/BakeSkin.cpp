@@ -62,9 +62,9 @@ double worstVolume(const MuscleDeformer& muscle, const std::vector<DualPose>& fa
     return worst;
 }
 
-/// What is to be said of the muscles between two bones that lie under a skin: those that cannot keep their
-/// volume everywhere within the joints' limits, and those that joints turn so far that two ways round are
-/// meant.
+/// Notes about the muscles between two bones that lie under a skin: those that cannot keep their volume
+/// everywhere within the joints' limits, and those that are turned so far that it is ambiguous which way
+/// round their bones have come.
 std::vector<std::string> muscleNotes(const SceneModel& scene, const SkinModel& skin,
                                      const std::vector<std::shared_ptr<const MuscleDeformer>>& muscles) {
     std::vector<std::string> notes;

@@ -1,4 +1,4 @@
-#include "bake/pipeline/SelectTests.h"
+#include "bake/pipeline/BoundTable.h"
 
 #include <algorithm>
 #include <cmath>

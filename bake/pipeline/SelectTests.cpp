@@ -3,8 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/reduce/CertifiedCover.h"
 #include "bake/reduce/Reductions.h"
-#include "bake/search/CertifiedSearch.h"
-#include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +11,6 @@
 namespace tss {
 
 namespace {
-
-SampledSearchOptions sampled(const PairTask& task) {
-    SampledSearchOptions search;
-    search.samples = static_cast<std::size_t>(task.options.samples);
-    search.rule = task.ruled.rule;
-    return search;
-}
 
 /// Every pair that the search has not ruled out; all pairs, where the search did not come to an end.
 Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes) {
@@ -129,30 +120,6 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
 
 } // namespace
 
-PairTask pairTask(const PairSpheres& spheres, const Motion& motion, const BakeOptions& options) {
-    const double lacking = spheres.a.coverage + spheres.b.coverage;
-    const bool fitted = options.spheres == SphereMethod::Medial && options.search == SearchMethod::Certified;
-    return {spheres, motion, options, ruleAtRest(spheres, motion, options),
-            fitted && std::isfinite(lacking) ? lacking : 0};
-}
-
-CandidatePairs searchPair(const PairTask& task, const Progress& progress) {
-    const SphereSet &a = task.spheres.a.spheres, &b = task.spheres.b.spheres;
-    if (task.options.search == SearchMethod::Sampled)
-        return searchSampled(a, b, task.motion, sampled(task), progress);
-    CertifiedSearchOptions certified;
-    certified.rule = task.ruled.rule;
-    certified.margin = task.margin;
-    // The cover can do without the list, which wide limits make very long; the other reductions need it.
-    if (task.options.reduce == ReduceMethod::Cover)
-        certified.effort = task.spheres.testAll ? 5'000'000 : 50'000'000;
-    return searchCertified(a, b, task.motion, certified, progress);
-}
-
-bool allListed(const CandidatePairs& candidates, const BakeOptions& options) {
-    return candidates.certified || options.search == SearchMethod::Sampled;
-}
-
 Selection selectTests(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress) {
     Selection selection;
@@ -170,7 +137,7 @@ Selection selectTests(const PairTask& task, const CandidatePairs& candidates, st
         break;
     case ReduceMethod::Minimal:
         selection.reduced = reduceMinimal(task.spheres.a.spheres, task.spheres.b.spheres, task.motion,
-                                          sampled(task), progress);
+                                          sampledSearch(task), progress);
         break;
     case ReduceMethod::None:
         selection.reduced.pairs = candidates.pairs;
