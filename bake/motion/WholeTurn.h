@@ -2,23 +2,37 @@
 #include "bake/motion/Motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 
 namespace tss {
 
+inline constexpr double fullTurn = 2 * std::numbers::pi; ///< radians
+
 /// Whether the limits span exactly one whole turn: the DOF is periodic and has no end.
 inline bool wholeTurn(const Dof& dof) {
-    constexpr double turn = 2 * std::numbers::pi;
-    return dof.kind == DofKind::Rotation && std::abs(dof.upper - dof.lower - turn) <= 1e-6 * turn;
+    return dof.kind == DofKind::Rotation && std::abs(dof.upper - dof.lower - fullTurn) <= 1e-6 * fullTurn;
+}
+
+/// The limits of a rotation that has none: half a turn to either side of 0.
+inline void setWholeTurn(Dof& dof) {
+    dof.lower = -fullTurn / 2;
+    dof.upper = fullTurn / 2;
+}
+
+/// A DOF's limits; of a periodic one half a turn to either side of rest.
+inline std::array<double, 2> limitsAboutRest(const Dof& dof) {
+    if (wholeTurn(dof)) return {dof.rest - fullTurn / 2, dof.rest + fullTurn / 2};
+    return {dof.lower, dof.upper};
 }
 
 /// The same set of poses without repetitions: the limits of rotations by more than a whole turn are cut to
 /// one turn about rest, and a billionth of a turn more, which covers rounding. Unchanged where there are
 /// planes, whose couplings are not periodic.
 inline Motion onceRound(Motion motion) {
-    constexpr double turn = (1 + 1e-9) * 2 * std::numbers::pi;
+    constexpr double turn = (1 + 1e-9) * fullTurn;
     for (Dof& dof : motion.dofs) {
         if (dof.kind != DofKind::Rotation || dof.upper - dof.lower <= turn || !motion.planes.empty())
             continue;
@@ -30,8 +44,7 @@ inline Motion onceRound(Motion motion) {
 
 /// The angle that differs from `value` by whole turns and is nearest to `to`.
 inline double nearestTurn(double value, double to) {
-    constexpr double turn = 2 * std::numbers::pi;
-    return value + turn * std::round((to - value) / turn);
+    return value + fullTurn * std::round((to - value) / fullTurn);
 }
 
 /// Brings the values of periodic DOFs within their limits by whole turns; others stay, all where there are

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace tss {
 
@@ -139,7 +138,6 @@ void findChains(JointModel& model) {
 
 /// Finds the periodic DOFs: all their tables cover the whole turn, and no plane limits them.
 void findPeriodicDofs(JointModel& model) {
-    constexpr double turn = 2 * std::numbers::pi;
     for (int l = 0; l < model.dofCount; ++l) {
         bool used = false, periodic = true;
         for (const JointModel::Group& group : model.groups)
@@ -152,11 +150,11 @@ void findPeriodicDofs(JointModel& model) {
         for (const LimitPlane& plane : model.planes) periodic = periodic && plane.coefficients[l] == 0;
         model.periodic[l] = periodic;
         model.first[l] = model.lower[l];
-        model.range[l] = periodic ? turn : model.upper[l] - model.lower[l];
+        model.range[l] = periodic ? fullTurn : model.upper[l] - model.lower[l];
         if (!periodic) continue;
         // Room for a way of half a turn from any value, and for sliding beyond its end.
-        model.lower[l] = model.first[l] - turn;
-        model.upper[l] = model.first[l] + 2 * turn;
+        model.lower[l] = model.first[l] - fullTurn;
+        model.upper[l] = model.first[l] + 2 * fullTurn;
     }
 }
 
@@ -242,7 +240,7 @@ DofValues valuesOf(const JointModel& model, const JointModel::Group& group, cons
     for (std::size_t k = 0; k < group.dofs.size(); ++k) {
         own[k] = q[group.dofs[k]];
         if (model.periodic[group.dofs[k]])
-            own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + std::numbers::pi);
+            own[k] = nearestTurn(own[k], group.motion.dofs[k].lower + fullTurn / 2);
     }
     return own;
 }

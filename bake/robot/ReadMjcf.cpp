@@ -1,6 +1,7 @@
 #include "bake/robot/ReadRobot.h"
 
 #include "bake/base/Words.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/robot/MjcfTree.h"
 #include "bake/robot/Xml.h"
 
@@ -299,7 +300,7 @@ private:
             setLimits(dof, compiler_.angle(range[0]), compiler_.angle(range[1]),
                       ref.empty() ? 0 : compiler_.angle(ref[0]));
         } else {
-            setLimits(dof, -pi, pi, 0);
+            setWholeTurn(dof);
         }
         joint.dofs.push_back(dof);
         return true;

@@ -1,11 +1,11 @@
 #include "bake/robot/ReadRobot.h"
 
+#include "bake/motion/WholeTurn.h"
 #include "bake/robot/UrdfText.h"
 #include "bake/robot/Xml.h"
 
 #include <console_bridge/console.h>
 #include <map>
-#include <numbers>
 #include <urdf_parser/urdf_parser.h>
 
 namespace tss {
@@ -155,8 +155,7 @@ private:
         const Vec3 axis = vector(model.axis);
         dof.axis = axis.norm() == 1 ? axis : Vec3(axis.stableNormalized());
         if (model.type == urdf::Joint::CONTINUOUS) {
-            dof.lower = -std::numbers::pi;
-            dof.upper = std::numbers::pi;
+            setWholeTurn(dof);
             joint.endless = true;
         } else {
             dof.lower = model.limits->lower;

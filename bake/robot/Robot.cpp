@@ -2,10 +2,10 @@
 
 #include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace tss {
 
@@ -51,7 +51,7 @@ void findLeader(const Robot& robot, RobotJoint& joint) {
     const Dof& leads = leader->dofs[0];
     if (leader->endless && joint.factor != 0) {
         if (dof.kind != DofKind::Rotation) return; // its own limits are all there is
-        const double half = std::numbers::pi * std::max(1.0, std::abs(joint.factor));
+        const double half = fullTurn / 2 * std::max(1.0, std::abs(joint.factor));
         dof.lower = joint.offset - half;
         dof.upper = joint.offset + half;
         return;
@@ -100,11 +100,10 @@ void settleEndless(Robot& robot, RobotJoint& joint) {
     for (Dof& dof : joint.dofs) {
         if (dof.kind != DofKind::Rotation || !joint.drives.empty()) continue;
         const double most = std::max(std::abs(dof.lower), std::abs(dof.upper));
-        if (most <= farthest || dof.upper - dof.lower < 2 * std::numbers::pi) continue;
+        if (most <= farthest || dof.upper - dof.lower < fullTurn) continue;
         robot.notes.push_back("joint " + joint.name + " (" + joint.where + ") has the limits " +
                               rangeText(robot, dof) + ": taken as one whole turn");
-        dof.lower = -std::numbers::pi;
-        dof.upper = std::numbers::pi;
+        setWholeTurn(dof);
         joint.endless = joint.dofs.size() == 1;
     }
 }

@@ -1,16 +1,15 @@
 #include "bake/usd/UsdParts.h"
 
 #include "bake/base/UnionFind.h"
+#include "bake/motion/WholeTurn.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tss {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr Attribute excluded{"physics:excludeFromArticulation", "bool", true};
 
 /// Its value is coupled to another joint's, as "PhysxMimicJointAPI:rotX" and NewtonMimicAPI say.
@@ -97,7 +96,7 @@ double valueAt(const Dof& dof, const Pose& child) {
     if (dof.kind == DofKind::Translation) return child.translation().dot(dof.axis) / dof.axis.squaredNorm();
     const Eigen::Quaterniond turned(child.linear());
     const double value = 2 * std::atan2(turned.vec().dot(dof.axis.normalized()), turned.w());
-    return value + turn * std::round(((dof.lower + dof.upper) / 2 - value) / turn);
+    return nearestTurn(value, (dof.lower + dof.upper) / 2);
 }
 
 class Joints {
@@ -188,9 +187,8 @@ private:
             leftOut_.add("left out: joints that slide without limits, which tie nothing", path);
             return false;
         }
-        if (!(dof.upper - dof.lower < turn)) {
-            dof.lower = -turn / 2;
-            dof.upper = turn / 2;
+        if (!(dof.upper - dof.lower < fullTurn)) {
+            setWholeTurn(dof);
             leftOut_.add(
                 "joints without limits of their turn, or with ones of a turn and more, turn once round",
                 path);

@@ -13,13 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace osgTSS {
 
 namespace {
-
-constexpr double tau = 2 * std::numbers::pi;
 
 struct Sample {
     tss::Pose pose;
@@ -203,9 +200,8 @@ tss::Dof dofOf(const std::string& name, tss::DofKind kind, const Track& track, s
     dof.lower = track.lower() - boneSlack * track.range();
     dof.upper = track.upper() + boneSlack * track.range();
     dof.rest = track.values[rest];
-    if (kind == tss::DofKind::Rotation && dof.upper - dof.lower >= tau) { // it has no end
-        dof.lower = -tau / 2;
-        dof.upper = tau / 2;
+    if (kind == tss::DofKind::Rotation && dof.upper - dof.lower >= tss::fullTurn) {
+        tss::setWholeTurn(dof);
         dof.rest = tss::nearestTurn(dof.rest, 0);
     }
     return dof;
@@ -231,8 +227,9 @@ std::vector<Track> slidesOf(const Samples& samples, const Pivot& pivot, const Ei
 double boneStill(const osg::Node& bone) {
     constexpr double rounded = 1e-3;
     double degrees = 0;
-    return bone.getUserValue("osgTSS:still", degrees) && degrees > 0 ? std::max(rounded, degrees * tau / 360)
-                                                                     : rounded;
+    return bone.getUserValue("osgTSS:still", degrees) && degrees > 0
+               ? std::max(rounded, degrees * tss::fullTurn / 360)
+               : rounded;
 }
 
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels) {

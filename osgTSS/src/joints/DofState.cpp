@@ -31,9 +31,7 @@ void swingDofs(osgSim::DOFTransform& node, std::span<const tss::Dof> dofs,
     node.setAnimationOn(false);
     DofState state = dofState(node);
     for (const tss::Dof& dof : dofs) {
-        const bool whole = tss::wholeTurn(dof);
-        const double lower = whole ? dof.rest - osg::PI : dof.lower;
-        const double upper = whole ? dof.rest + osg::PI : dof.upper;
+        const auto [lower, upper] = tss::limitsAboutRest(dof);
         const double half = (upper - lower) / 2, middle = (upper + lower) / 2;
         const double from = half > 0 ? std::asin(std::clamp((dof.rest - middle) / half, -1.0, 1.0)) : 0;
         const double value = middle + half * std::sin(from + 2 * osg::PI * rounds() * share);

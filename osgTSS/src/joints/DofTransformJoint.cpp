@@ -82,8 +82,7 @@ tss::Dof dofOf(const Axis& axis, const std::vector<tss::Dof>& limits, std::strin
         dof.lower = said->lower;
         dof.upper = said->upper;
     } else if (!axis.limited && axis.kind == tss::DofKind::Rotation) {
-        dof.lower = -osg::PI;
-        dof.upper = osg::PI;
+        tss::setWholeTurn(dof);
     } else if (!(axis.lower < axis.upper)) {
         dof.lower = dof.upper = axis.current;
         if (!axis.limited) unlimited += (unlimited.empty() ? "" : " ") + dof.name;
