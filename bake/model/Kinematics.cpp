@@ -3,17 +3,10 @@
 #include "bake/base/Error.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
 namespace {
-
-template <class Items>
-int indexOf(const Items& items, const std::string& path) {
-    const auto found = std::ranges::find(items, path, &Items::value_type::path);
-    return found == items.end() ? -1 : static_cast<int>(found - items.begin());
-}
 
 /// The DOF of a joint, with its axis as seen from A: x -> place * D * place^-1.
 Dof placed(const Dof& dof, const Pose& place) {
@@ -38,9 +31,9 @@ bool onePlace(const std::vector<PathRow>& rows) {
         rows, [&](const PathRow& row) { return row.translation == rows.front().translation; });
 }
 
-/// The path's inverse at the same values, all that is linear between its rows: `after` is what of it is left
-/// for what follows. The inverse of a turn R about a place t is x -> R^-1 (x - t), linear where R or t is one
-/// and the same; where both change it is not.
+/// The inverse of a path at the same values, split into a path, which must be linear between its rows, and a
+/// constant motion `after` that is applied before it. The inverse of x -> R x + t is x -> R^-1 (x - t):
+/// linear in the rows where R or t is the same in all of them, otherwise not.
 Dof invertedPath(const Dof& dof, const Joint& joint, Pose& after) {
     Dof back = dof;
     if (onePlace(dof.path)) {
@@ -66,7 +59,7 @@ Dof invertedPath(const Dof& dof, const Joint& joint, Pose& after) {
     return back;
 }
 
-/// D^-1 as a DOF of the same value, and then `after`.
+/// D^-1 as the product of a DOF of the same value, which is returned, and `after`.
 Dof inverted(const Dof& dof, const Joint& joint, Pose& after) {
     if (dof.kind == DofKind::Path) return invertedPath(dof, joint, after);
     Dof back = dof;
@@ -97,71 +90,6 @@ void append(Motion& motion, Pose& place, const Joint& joint, bool backwards, boo
 
 } // namespace
 
-JointWays::JointWays(const std::vector<Joint>& joints) : only_(joints.size(), true) {
-    int most = -1;
-    for (const Joint& joint : joints) most = std::max({most, joint.body0, joint.body1});
-    std::vector<std::vector<Step>> from(static_cast<std::size_t>(most + 2)); // each body, the world first
-    for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-        const Joint& joint = joints[j];
-        if (!joint.enabled || joint.body0 == joint.body1) continue;
-        from[joint.body0 + 1].push_back({j, joint.body1 + 1});
-        from[joint.body1 + 1].push_back({j, joint.body0 + 1});
-    }
-    const int bodies = static_cast<int>(from.size());
-    above_.assign(from.size(), Step{-1, -1});
-    depth_.assign(from.size(), -1);
-    for (int root = 0; root < bodies; ++root) {
-        if (depth_[root] >= 0) continue;
-        depth_[root] = 0;
-        std::vector<int> reached{root};
-        for (std::size_t i = 0; i < reached.size(); ++i)
-            for (const Step& step : from[reached[i]]) {
-                if (depth_[step.body] >= 0) continue;
-                depth_[step.body] = depth_[reached[i]] + 1;
-                above_[step.body] = {step.joint, reached[i]};
-                reached.push_back(step.body);
-            }
-    }
-    // A joint that is not in the forest leads round all those in it between its two bodies.
-    std::vector<int> top(from.size()); // of each body, as far up as such loops have led already
-    std::iota(top.begin(), top.end(), 0);
-    const auto climbed = [&](int body) {
-        while (top[body] != body) body = top[body] = top[top[body]];
-        return body;
-    };
-    for (int body = 0; body < bodies; ++body)
-        for (const Step& step : from[body]) {
-            if (step.joint == above_[body].joint || step.joint == above_[step.body].joint) continue;
-            int a = climbed(body), b = climbed(step.body);
-            while (a != b) {
-                int& lower = depth_[a] > depth_[b] ? a : b;
-                only_[above_[lower].joint] = false;
-                top[lower] = above_[lower].body;
-                lower = climbed(lower);
-            }
-        }
-}
-
-std::optional<std::vector<int>> JointWays::chain(int bodyA, int bodyB) const {
-    std::vector<int> way, back;
-    int a = bodyA + 1, b = bodyB + 1;
-    if (std::max(a, b) >= static_cast<int>(above_.size())) return way;
-    while (a != b) {
-        const bool fromA = depth_[a] >= depth_[b];
-        const Step up = above_[fromA ? a : b];
-        if (up.joint < 0) return std::vector<int>(); // two trees
-        (fromA ? way : back).push_back(up.joint);
-        (fromA ? a : b) = up.body;
-    }
-    way.insert(way.end(), back.rbegin(), back.rend());
-    if (!std::ranges::all_of(way, [&](int joint) { return only_[joint]; })) return std::nullopt;
-    return way;
-}
-
-std::optional<std::vector<int>> findChain(const std::vector<Joint>& joints, int bodyA, int bodyB) {
-    return JointWays(joints).chain(bodyA, bodyB);
-}
-
 Motion pairMotion(const SceneModel& scene, const Pair& pair) {
     Motion motion;
     Pose place = Pose::Identity();
@@ -175,36 +103,6 @@ Motion pairMotion(const SceneModel& scene, const Pair& pair) {
     for (LimitPlane& plane : motion.planes) plane.coefficients.resize(motion.dofs.size(), 0.0);
     motion.base = place;
     return motion;
-}
-
-int findBody(const SceneModel& scene, const std::string& path) {
-    return indexOf(scene.bodies, path);
-}
-
-int findPair(const SceneModel& scene, const std::string& path) {
-    return indexOf(scene.pairs, path);
-}
-int findMuscle(const SceneModel& scene, const std::string& path) {
-    return indexOf(scene.muscles, path);
-}
-int findSkin(const SceneModel& scene, const std::string& path) {
-    return indexOf(scene.skins, path);
-}
-
-bool hasPath(const SceneModel& scene, const std::string& path) {
-    return indexOf(scene.bodies, path) >= 0 || indexOf(scene.joints, path) >= 0 ||
-           indexOf(scene.muscles, path) >= 0 || indexOf(scene.pairs, path) >= 0;
-}
-
-double largestDiagonal(const SceneModel& scene) {
-    double largest = 0;
-    for (const Body& body : scene.bodies)
-        if (!body.mesh.vertices.empty()) largest = std::max(largest, diagonal(body.mesh));
-    return largest;
-}
-
-std::string primName(const std::string& path) {
-    return path.substr(path.rfind('/') + 1);
 }
 
 std::vector<std::size_t> firstValues(const SceneModel& scene) {
@@ -245,30 +143,6 @@ std::vector<JointDof> pairDofs(const SceneModel& scene, const Pair& pair) {
     return dofs;
 }
 
-std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin) {
-    std::vector<UnderSkin> under;
-    for (const int index : skin.muscles) {
-        const MuscleModel& muscle = scene.muscles.at(static_cast<std::size_t>(index));
-        under.push_back({index, muscle.body, muscle.bone, -1});
-    }
-    for (const int bone : skin.bones) under.push_back({-1, bone, bone, -1});
-    for (const int joint : skin.weights.joints)
-        if (std::ranges::find(skin.bones, joint) == skin.bones.end()) under.push_back({-1, -1, joint, -1});
-    for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
-        const int bone = scene.muscles[skin.muscles[m]].insertionBone;
-        if (bone < 0) continue;
-        const auto moves = [&](const UnderSkin& u) { return u.bone == bone; };
-        auto found = std::ranges::find_if(under, moves);
-        if (found == under.end()) found = under.insert(under.end(), UnderSkin{-1, -1, bone, -1});
-        under[m].insertion = static_cast<int>(found - under.begin());
-    }
-    return under;
-}
-
-const std::string& pathOf(const SceneModel& scene, const UnderSkin& under) {
-    return under.muscle >= 0 ? scene.muscles[under.muscle].path : scene.bodies[under.bone].path;
-}
-
 Pose jointPose(const Joint& joint, std::span<const double> values) {
     Pose pose = joint.frame0;
     for (std::size_t k = 0; k < joint.dofs.size(); ++k) pose = pose * dofPose(joint.dofs[k], values[k]);
@@ -300,12 +174,17 @@ std::vector<int> rigidRoots(const SceneModel& scene) {
     return roots;
 }
 
-std::vector<int> movingAsOne(const SceneModel& scene, int bone) {
-    std::vector<char> soft(scene.bodies.size(), 0);
+std::vector<bool> softBodies(const SceneModel& scene) {
+    std::vector<bool> soft(scene.bodies.size(), false);
     for (const MuscleModel& muscle : scene.muscles)
-        if (muscle.body >= 0) soft[muscle.body] = 1;
+        if (muscle.body >= 0) soft[muscle.body] = true;
     for (const SkinModel& skin : scene.skins)
-        if (skin.body >= 0) soft[skin.body] = 1;
+        if (skin.body >= 0) soft[skin.body] = true;
+    return soft;
+}
+
+std::vector<int> movingAsOne(const SceneModel& scene, int bone) {
+    const std::vector<bool> soft = softBodies(scene);
     const std::vector<int> roots = rigidRoots(scene);
     std::vector<int> bodies;
     for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k)

@@ -1,5 +1,6 @@
 #include "bake/play/MuscleWays.h"
 
+#include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
 
 #include <algorithm>

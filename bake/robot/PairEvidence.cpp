@@ -3,7 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/ConnectedParts.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/model/Kinematics.h"
+#include "bake/model/JointGraph.h"
 #include "bake/model/SourceHash.h"
 #include "bake/search/SampledSearch.h"
 #include "bake/table/Query.h"
@@ -117,7 +117,7 @@ Tried nearestPose(const Meshes& meshes, const Motion& motion, const Table* table
 
 class Collector {
 public:
-    explicit Collector(const SceneModel& scene) : scene_(scene), ways_(scene.joints) {
+    explicit Collector(const SceneModel& scene) : scene_(scene), graph_(scene.joints) {
         for (const Pair& pair : scene.pairs) addPair(pair);
         const int count = static_cast<int>(scene.bodies.size());
         for (int a = 0; a < count; ++a) {
@@ -187,7 +187,7 @@ private:
     /// Bodies that are no pair: they do not move against each other, or nobody asked.
     void addOther(int a, int b, bool joined) {
         if (found_.contains({a, b})) return;
-        const auto chain = ways_.chain(a, b);
+        const auto chain = graph_.chain(a, b);
         const bool rigid = chain && !chain->empty() &&
                            std::ranges::all_of(*chain, [&](int j) { return scene_.joints[j].dofs.empty(); });
         if (!rigid && !joined) return;
@@ -204,7 +204,7 @@ private:
     }
 
     const SceneModel& scene_;
-    const JointWays ways_;
+    const JointGraph graph_;
     std::map<std::pair<int, int>, PairEvidence> found_;
 };
 

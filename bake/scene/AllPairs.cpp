@@ -1,6 +1,7 @@
 #include "bake/scene/AllPairs.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/scene/SceneParts.h"
@@ -14,17 +15,18 @@ namespace tss {
 
 namespace {
 
-bool isSoft(const SceneModel& scene, int body) {
-    const auto stands = [body](const auto& item) { return item.body == body; };
-    return std::ranges::any_of(scene.skins, stands) || std::ranges::any_of(scene.muscles, stands);
-}
-
-/// A body that some enabled joint holds counts as rigid, as it does for pairs that are named.
-bool canCollide(const SceneModel& scene, int body) {
-    if (scene.bodies[body].mesh.empty() || isSoft(scene, body)) return false;
-    return std::ranges::any_of(scene.joints, [body](const Joint& joint) {
-        return joint.enabled && (joint.body0 == body || joint.body1 == body);
-    });
+/// The bodies that may be of a pair. One that some enabled joint holds counts as rigid, as it does for pairs
+/// that are named.
+std::vector<int> collidingBodies(const SceneModel& scene) {
+    const std::vector<bool> soft = softBodies(scene);
+    std::vector<int> bodies;
+    for (int body = 0; body < static_cast<int>(scene.bodies.size()); ++body)
+        if (!scene.bodies[body].mesh.empty() && !soft[body] &&
+            std::ranges::any_of(scene.joints, [body](const Joint& joint) {
+                return joint.enabled && (joint.body0 == body || joint.body1 == body);
+            }))
+            bodies.push_back(body);
+    return bodies;
 }
 
 /// Paths that prims have.
@@ -61,10 +63,10 @@ std::string obstacle(const SceneModel& scene, const Pair& pair, const std::vecto
 }
 
 /// The pair of two bodies, B the one that moves; nothing, perhaps with a note, where they are none.
-std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, const std::vector<int>& movers,
+std::optional<Pair> pairOf(const SceneModel& scene, const JointGraph& graph, const std::vector<int>& movers,
                            int a, int b, std::vector<std::string>& notes) {
     const std::string both = scene.bodies[a].path + " and " + scene.bodies[b].path;
-    const auto chain = ways.chain(a, b);
+    const auto chain = graph.chain(a, b);
     if (!chain) {
         notes.push_back(both + ": more than one chain of joints links them, a closed loop");
         return std::nullopt;
@@ -97,11 +99,9 @@ std::optional<Pair> pairOf(const SceneModel& scene, const JointWays& ways, const
 
 AllPairs addAllPairs(SceneModel& scene) {
     AllPairs result;
-    std::vector<int> bodies;
-    for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k)
-        if (canCollide(scene, k)) bodies.push_back(k);
+    const std::vector<int> bodies = collidingBodies(scene);
     const std::size_t first = scene.pairs.size();
-    const JointWays ways(scene.joints);
+    const JointGraph graph(scene.joints);
     const std::vector<int> moving = movers(scene);
     std::unordered_set<std::string> paths = pathsOf(scene);
     std::set<std::pair<int, int>> known;
@@ -109,7 +109,7 @@ AllPairs addAllPairs(SceneModel& scene) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j) {
             if (known.contains({bodies[i], bodies[j]})) continue;
-            std::optional<Pair> pair = pairOf(scene, ways, moving, bodies[i], bodies[j], result.notes);
+            std::optional<Pair> pair = pairOf(scene, graph, moving, bodies[i], bodies[j], result.notes);
             if (!pair) continue;
             if (pair->path.empty()) pair->path = freePath(scene, paths, *pair);
             paths.insert(pair->path);

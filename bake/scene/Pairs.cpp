@@ -1,3 +1,4 @@
+#include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
 #include "bake/scene/SceneParts.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr const char* loopFound = ", found more than one: a pair cannot be part of a closed loop";
 
-bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const PrimReader& prim,
+bool readBodiesOfPrim(const SceneReading& reading, const JointGraph& graph, const PrimReader& prim,
                       Pair& pair) {
     const auto paths = prim.targets(schema::bodies);
     if (paths.size() != 2 || paths[0] == paths[1]) {
@@ -20,7 +21,7 @@ bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const 
     pair.bodyA = reading.body(prim, schema::bodies, paths[0]);
     pair.bodyB = reading.body(prim, schema::bodies, paths[1]);
     if (pair.bodyA < 0 || pair.bodyB < 0) return false;
-    const auto chain = ways.chain(pair.bodyA, pair.bodyB);
+    const auto chain = graph.chain(pair.bodyA, pair.bodyB);
     if (!chain)
         prim.targetProblem(schema::bodies, "expected one chain of joints from ", paths[0], " to ", paths[1],
                            loopFound);
@@ -32,7 +33,7 @@ bool readBodiesOfPrim(const SceneReading& reading, const JointWays& ways, const 
     return chain && !chain->empty();
 }
 
-bool readBodiesOfJoint(const SceneReading& reading, const JointWays& ways, const PrimReader& prim,
+bool readBodiesOfJoint(const SceneReading& reading, const JointGraph& graph, const PrimReader& prim,
                        Pair& pair) {
     const int index = reading.jointAt.at(pair.path);
     const Joint& joint = reading.scene.joints[index];
@@ -45,7 +46,7 @@ bool readBodiesOfJoint(const SceneReading& reading, const JointWays& ways, const
         prim.problem("expected physics:body0 and physics:body1: a pair needs both");
     else if (!joint.enabled)
         prim.problem("expected a joint that is enabled: the two bodies of a pair move by it");
-    else if (!ways.chain(pair.bodyA, pair.bodyB))
+    else if (!graph.chain(pair.bodyA, pair.bodyB))
         prim.problem("expected one chain of joints from ", reading.scene.bodies[pair.bodyA].path, " to ",
                      reading.scene.bodies[pair.bodyB].path, loopFound);
     else
@@ -147,15 +148,15 @@ void writeSettings(Prim& prim, const BakeSettings& settings) {
 
 void readPairs(SceneReading& reading) {
     const auto isPair = [](const Prim& prim) { return hasApi(prim, "TssPairAPI"); };
-    const JointWays ways(reading.scene.joints);
+    const JointGraph graph(reading.scene.joints);
     const std::vector<int> moving = movers(reading.scene);
     reading.forPrims(isPair, [&](const PrimReader& prim, int entry) {
         if (!reading.ownPrim(entry, "TssPairAPI")) return;
         Pair pair;
         pair.path = prim.place().path;
         pair.settings = readSettings(prim);
-        const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, ways, prim, pair)
-                                                              : readBodiesOfPrim(reading, ways, prim, pair);
+        const bool tied = reading.jointAt.contains(pair.path) ? readBodiesOfJoint(reading, graph, prim, pair)
+                                                              : readBodiesOfPrim(reading, graph, prim, pair);
         if (!tied) return;
         checkMeshes(reading, prim, pair);
         if (checkStill(reading, pair) && checkPairMotion(reading, moving, prim, pair))
@@ -166,12 +167,9 @@ void readPairs(SceneReading& reading) {
 void checkCarried(const SceneReading& reading) {
     const SceneModel& scene = reading.scene;
     const std::vector<int> moving = movers(scene);
-    const auto isSoft = [&](int body) {
-        const auto stands = [body](const auto& item) { return item.body == body; };
-        return std::ranges::any_of(scene.skins, stands) || std::ranges::any_of(scene.muscles, stands);
-    };
+    const std::vector<bool> soft = softBodies(scene);
     for (const auto& [path, body] : reading.bodyAt) {
-        if (scene.bodies[body].mesh.empty() || moving[body] >= 0 || isSoft(body)) continue;
+        if (scene.bodies[body].mesh.empty() || moving[body] >= 0 || soft[body]) continue;
         for (int at = reading.index.find(path); at >= 0 && !resetsXformStack(reading.reader(at));) {
             at = reading.index.entries[at].parent;
             const auto carrier = reading.bodyAt.find(at < 0 ? "" : reading.index.entries[at].place.path);

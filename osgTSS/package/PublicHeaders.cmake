@@ -7,6 +7,7 @@ set(open
     bake/base/FramePattern.h
     bake/model/AddPair.h
     bake/model/CheckIndices.h
+    bake/model/JointGraph.h
     bake/model/Kinematics.h
     bake/model/SceneModel.h
     bake/model/SourceHash.h

@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
 #include "tests/table/RandomTable.h"
 

@@ -1,4 +1,5 @@
 #include "bake/base/Error.h"
+#include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
 #include "bake/scene/ReadLayer.h"
 #include "bake/scene/SceneParts.h"

@@ -3,7 +3,7 @@
 #include "osgTSS/src/joints/AnimationChannels.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/Kinematics.h"
+#include "bake/model/JointGraph.h"
 #include "bake/motion/MotionBound.h"
 
 #include <osg/Notify>
@@ -72,7 +72,7 @@ void ConstraintVisitor::addPairs() {
         while (_jointAbove[body] >= 0) body = _model.joints[_jointAbove[body]].body0;
         return body;
     };
-    const tss::JointWays ways(_model.joints);
+    const tss::JointGraph graph(_model.joints);
     const int count = static_cast<int>(_model.bodies.size());
     for (int body = 0; body < count; ++body)
         if (_dropped[body] > 0 && !_quiet)
@@ -83,7 +83,7 @@ void ConstraintVisitor::addPairs() {
         for (int a = 0; a < b; ++a)
             if (_dropped[a] == 0 && _dropped[b] == 0 && !_model.bodies[a].mesh.empty() &&
                 !_model.bodies[b].mesh.empty() && top(a) == top(b) && wanted(a, b))
-                addPair(a, b, *ways.chain(a, b)); // the only one: joints make a tree
+                addPair(a, b, *graph.chain(a, b)); // the only one: joints make a tree
     if (_tooManyDofs > 0 && !_quiet)
         OSG_NOTICE << "osgTSS: " << _tooManyDofs
                    << " pairs of bodies are left out: the joints between them have more "

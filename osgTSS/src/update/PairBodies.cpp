@@ -7,7 +7,7 @@
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include "bake/base/Error.h"
-#include "bake/model/Kinematics.h"
+#include "bake/model/JointGraph.h"
 
 #include <osg/Transform>
 #include <osgTSS/Convert>
@@ -28,12 +28,12 @@ PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model) : _now(fin
         for (std::size_t k = 0; k < model.bodies.size(); ++k)
             if (isNamed(body, model.bodies[k].path, movedBy[k])) standFor[k].push_back(body);
     }
-    const tss::JointWays ways(_now.joints);
+    const tss::JointGraph graph(_now.joints);
     for (const tss::Pair& pair : model.pairs) {
         if (!pair.table && !pair.proof) continue;
         for (int a : standFor[pair.bodyA])
             for (int b : standFor[pair.bodyB])
-                if (const auto chain = ways.chain(a, b); !chain || !chain->empty()) _pairs.emplace_back(a, b);
+                if (const auto chain = graph.chain(a, b); !chain || !chain->empty()) _pairs.emplace_back(a, b);
     }
 }
 
