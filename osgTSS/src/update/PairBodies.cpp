@@ -33,7 +33,8 @@ PairBodies::PairBodies(osg::Node& root, const tss::SceneModel& model) : _now(fin
         if (!pair.table && !pair.proof) continue;
         for (int a : standFor[pair.bodyA])
             for (int b : standFor[pair.bodyB])
-                if (const auto chain = graph.chain(a, b); !chain || !chain->empty()) _pairs.emplace_back(a, b);
+                if (const auto chain = graph.chain(a, b); !chain || !chain->empty())
+                    _pairs.emplace_back(a, b);
     }
 }
 
