@@ -26,9 +26,7 @@ double valueAt(const tss::Joint& joint, std::size_t dof, double time, bool anima
     if (tss::isDriven(joint, dof)) return joint.drives[dof].at(time);
     const tss::Dof& range = joint.dofs[dof];
     if (!animated) return range.rest;
-    const bool whole = tss::wholeTurn(range);
-    const double lower = whole ? range.rest - osg::PI : range.lower;
-    const double upper = whole ? range.rest + osg::PI : range.upper;
+    const auto [lower, upper] = tss::limitsAboutRest(range);
     return (lower + upper) / 2 + (upper - lower) / 2 * std::sin(2 * osg::PI * rounds * share);
 }
 
