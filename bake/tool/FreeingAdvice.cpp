@@ -1,6 +1,7 @@
 #include "bake/tool/FreeingAdvice.h"
 
 #include "bake/geometry/MeshAudit.h"
+#include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/pipeline/FreeingMove.h"
 #include "bake/robot/PairEvidence.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <numbers>
 
 namespace tss::tool {
 
@@ -67,7 +67,7 @@ Motion widened(const FreeingMove& move, const Motion& before) {
     }
     for (std::size_t k = 0; k < wider.dofs.size(); ++k) {
         Dof& dof = wider.dofs[k];
-        const double excess = dof.upper - dof.lower - 2 * std::numbers::pi;
+        const double excess = dof.upper - dof.lower - fullTurn;
         if (dof.kind != DofKind::Rotation || !(excess > 0)) continue;
         const bool loweredLimit = before.dofs[k].lower > dof.lower;
         const bool raisedLimit = before.dofs[k].upper < dof.upper;

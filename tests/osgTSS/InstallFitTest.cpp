@@ -135,17 +135,27 @@ TEST_CASE("machines that a joint each carries are served in one install") {
         CHECK(find<osgSim::DOFTransform>(*hull, "Arm")->getCurrentTranslate()[0] == Approx(4).margin(1e-3));
 }
 
-TEST_CASE("a node that is taken out takes its own pairs along and no others") {
-    Yard yard;
-    const tss::SceneModel model = yard.baked();
+namespace {
+
+/// A yard with one callback over both arms, as where they share a joint.
+struct YardOfOneCallback : Yard {
+    const tss::SceneModel model = baked();
     osg::ref_ptr<Scene> scene = new Scene(std::make_shared<tss::SceneModel>(model));
-    install(*yard.root, *scene);
-    // One callback over both, as where they share a joint.
-    uninstall(*yard.root);
     osg::ref_ptr<JointCallback> both = new JointCallback(scene, {model.pairs[0].path, model.pairs[1].path});
-    yard.root->setUpdateCallback(both);
-    both->start(*yard.root);
-    CHECK(yard.reach(0) == Approx(4).margin(1e-3));
+
+    YardOfOneCallback() {
+        install(*root, *scene);
+        uninstall(*root);
+        root->setUpdateCallback(both);
+        both->start(*root);
+        CHECK(reach(0) == Approx(4).margin(1e-3));
+    }
+};
+
+} // namespace
+
+TEST_CASE("a node that is taken out takes its own pairs along and no others") {
+    YardOfOneCallback yard;
     CHECK(yard.reach(1) == Approx(4).margin(1e-3));
     yard.root->removeChild(yard.arms[0]);
     CHECK(yard.reach(1, 1) == 1);
@@ -153,22 +163,14 @@ TEST_CASE("a node that is taken out takes its own pairs along and no others") {
 
     SECTION("and back where it was it is kept apart again") {
         yard.root->addChild(yard.arms[0]);
-        scene->setModel(std::make_shared<tss::SceneModel>(model));
+        yard.scene->setModel(std::make_shared<tss::SceneModel>(yard.model));
         yard.reach(0, 0);
         CHECK(yard.reach(0) == Approx(4).margin(1e-3));
     }
 }
 
 TEST_CASE("a joint that is hung elsewhere is let go, and the others are kept") {
-    Yard yard;
-    const tss::SceneModel model = yard.baked();
-    osg::ref_ptr<Scene> scene = new Scene(std::make_shared<tss::SceneModel>(model));
-    install(*yard.root, *scene);
-    uninstall(*yard.root);
-    osg::ref_ptr<JointCallback> both = new JointCallback(scene, {model.pairs[0].path, model.pairs[1].path});
-    yard.root->setUpdateCallback(both);
-    both->start(*yard.root);
-    CHECK(yard.reach(0) == Approx(4).margin(1e-3));
+    YardOfOneCallback yard;
     yard.reach(0, 0);
     osg::ref_ptr<osg::MatrixTransform> aside = new osg::MatrixTransform(osg::Matrixd::translate(0, 3, 0));
     yard.root->addChild(aside);

@@ -1,8 +1,10 @@
 #include "tests/tool/Shell.h"
 
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -44,4 +46,17 @@ Ran runTss(const std::string& arguments, const fs::path& folder, const std::stri
     ran.out = readText(capture / "out");
     ran.err = readText(capture / "err");
     return ran;
+}
+
+std::vector<Ran> runPage(const std::string& page, const fs::path& folder) {
+    fs::copy(OSGTSS_SOURCE_DIR "/examples/arm", folder / "arm");
+    std::istringstream lines(readText(fs::path(OSGTSS_SOURCE_DIR "/docs") / page));
+    std::vector<Ran> commands;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("    tss ")) continue;
+        commands.push_back(runTss(line.substr(8), folder));
+        INFO(line << "\n" << commands.back().out << commands.back().err);
+        REQUIRE(commands.back().exit == 0);
+    }
+    return commands;
 }

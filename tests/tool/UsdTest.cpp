@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 using Json = nlohmann::json;
 
@@ -12,17 +11,7 @@ using Json = nlohmann::json;
 
 TEST_CASE("every command of docs/USD.md does what it says, one after the other") {
     const Folder folder;
-    std::filesystem::copy(OSGTSS_SOURCE_DIR "/examples/arm", folder.path() / "arm");
-    std::istringstream lines(readText(OSGTSS_SOURCE_DIR "/docs/USD.md"));
-    int commands = 0;
-    for (std::string line; std::getline(lines, line);) {
-        if (!line.starts_with("    tss ")) continue;
-        ++commands;
-        const Ran ran = runTss(line.substr(8), folder.path());
-        INFO(line << "\n" << ran.out << ran.err);
-        REQUIRE(ran.exit == 0);
-    }
-    CHECK(commands == 7);
+    CHECK(runPage("USD.md", folder.path()).size() == 7);
     CHECK(readText(folder.path() / "again.tss") == readText(folder.path() / "baked.tss"));
     CHECK(readText(folder.path() / "arm_out.usda").find("physics:filteredPairs") != std::string::npos);
 }
