@@ -172,8 +172,13 @@ private:
 };
 
 /// Without the vertices of points and lines alone, which are no surface and would count in its size. places:
-/// where its vertices are taken. Throws InputError for a face that names a vertex which is not there.
-void append(const aiMesh& source, const std::vector<Eigen::Affine3d>& places, TriangleMesh& mesh) {
+/// where its vertices are taken; empty: all to `placeOfAll`. Throws InputError for a face that names a vertex
+/// which is not there.
+void append(const aiMesh& source, const std::vector<Eigen::Affine3d>& places,
+            const Eigen::Affine3d& placeOfAll, TriangleMesh& mesh) {
+    const auto taken = [&](unsigned v) -> const Eigen::Affine3d& {
+        return places.empty() ? placeOfAll : places[v];
+    };
     enum Use { Loose, OfLine, OfFace };
     std::vector<Use> uses(source.mNumVertices, Loose);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -192,7 +197,7 @@ void append(const aiMesh& source, const std::vector<Eigen::Affine3d>& places, Tr
         if (uses[v] == OfLine) continue;
         const aiVector3D& p = source.mVertices[v];
         place[v] = static_cast<int>(mesh.vertices.size());
-        mesh.vertices.push_back(places[v] * Vec3(p.x, p.y, p.z));
+        mesh.vertices.push_back(taken(v) * Vec3(p.x, p.y, p.z));
     }
     std::vector<Vec3> corners;
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -201,7 +206,7 @@ void append(const aiMesh& source, const std::vector<Eigen::Affine3d>& places, Tr
         corners.clear();
         for (unsigned k = 0; k < face.mNumIndices; ++k)
             corners.push_back(mesh.vertices[place[face.mIndices[k]]]);
-        const bool mirrored = places[face.mIndices[0]].linear().determinant() < 0;
+        const bool mirrored = taken(face.mIndices[0]).linear().determinant() < 0;
         for (Tri t : triangulated(corners)) {
             if (mirrored) std::swap(t[1], t[2]); // keeps the outside outside
             mesh.triangles.emplace_back(place[face.mIndices[t[0]]], place[face.mIndices[t[1]]],
@@ -227,11 +232,8 @@ ImportedNode partOf(const aiScene& scene, const aiNode& node, const Eigen::Affin
     }
     const Eigen::Affine3d none = Eigen::Affine3d::Identity();
     ImportedNode part{node.mName.C_Str(), elsewhere ? none : place, {}};
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-        if (skins[i].empty()) skins[i].assign(mesh.mNumVertices, elsewhere ? place : none);
-        append(mesh, skins[i], part.mesh);
-    }
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+        append(*scene.mMeshes[node.mMeshes[i]], skins[i], elsewhere ? place : none, part.mesh);
     return part;
 }
 
