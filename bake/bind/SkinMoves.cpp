@@ -7,15 +7,15 @@
 namespace tss {
 namespace {
 
-/// Adds to `most`, #V displacements, the largest swelling of a muscle between two bones over all swings.
-void addSwelling(const MuscleDeformer& muscle, int insertion, std::size_t m,
+/// Adds to `most`, #V displacements, the largest swelling of a muscle over several bones over all swings.
+void addSwelling(const MuscleDeformer& muscle, std::span<const int> chain, std::size_t m,
                  const std::vector<BoneSwing>& swings, std::vector<double>& most) {
-    if (insertion < 0) return;
+    if (chain.empty()) return;
     const MuscleSpan span(muscle);
     double swell = 0;
     for (const BoneSwing& swing : swings)
         for (const std::vector<Pose>& station : swing)
-            swell = std::max(swell, std::abs(span.swell(between(station[m], station[insertion]),
+            swell = std::max(swell, std::abs(span.swell(chainMotion(station, m, chain),
                                                         muscle.muscle().surface.vertices)));
     for (std::size_t v = 0; v < most.size(); ++v) most[v] += swell * span.swelling()[v].norm();
 }
@@ -47,7 +47,7 @@ SkinMoves skinMoves(const TriangleMesh& skin,
             for (std::size_t v = 0; v < most.size(); ++v)
                 most[v] = std::max(most[v], (now[v] - muscle.surface.vertices[v]).norm());
         }
-        addSwelling(*bodies[m], insertionOf(parameters, m), m, parameters.swings, most);
+        addSwelling(*bodies[m], chainOf(parameters, m), m, parameters.swings, most);
         for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
             if (!(attachment.muscles[m][v] > 0)) continue;
             double moved = 0;

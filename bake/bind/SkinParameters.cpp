@@ -28,11 +28,12 @@ void checkSkin(const TriangleMesh& skin, std::size_t bodies, const SkinParameter
     for (const int frame : p.frames)
         if (frame < -1 || frame >= static_cast<int>(bodies))
             throw InputError("a frame of a skin is numbered from 0 and fewer than its bodies");
-    if (!p.insertions.empty() && p.insertions.size() != bodies)
-        throw InputError("a skin needs one insertion a muscle or bone below it");
-    for (const int insertion : p.insertions)
-        if (insertion < -1 || insertion >= static_cast<int>(bodies))
-            throw InputError("the insertion of a muscle under a skin is one of the bodies below it");
+    if (!p.chains.empty() && p.chains.size() != bodies)
+        throw InputError("a skin needs one chain of bones a muscle or bone below it");
+    for (const std::vector<int>& chain : p.chains)
+        for (const int body : chain)
+            if (body < 0 || body >= static_cast<int>(bodies))
+                throw InputError("the bones of a muscle under a skin are of the bodies below it");
     for (const std::vector<double>& list : p.shares) {
         if (list.size() != skin.vertices.size())
             throw InputError("the shares of a skin need one value a vertex");

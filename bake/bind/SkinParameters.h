@@ -2,6 +2,7 @@
 #include "bake/geometry/TriangleMesh.h"
 #include "bake/motion/BoneSwing.h"
 
+#include <span>
 #include <vector>
 
 namespace tss {
@@ -13,9 +14,10 @@ struct SkinParameters {
     /// #bodies: the moving frame that each is rigid in, -1: the skin's own. Empty: each bone is a frame of
     /// its own, muscles are in the skin's.
     std::vector<int> frames;
-    /// #bodies: for a muscle between two bones a body that moves with the bone at its insertion; the muscle's
-    /// own frame is that of the bone at its origin. -1 for all others. Empty: -1 for all.
-    std::vector<int> insertions;
+    /// #bodies: of a muscle over several bones bodies that move with those behind the first, in order to that
+    /// of its insertion; the muscle's own frame is that of the bone at its origin. None for all others.
+    /// Empty: none for all.
+    std::vector<std::vector<int>> chains;
     /// #frames of #V in [0,1]: skinning weights; empty: computed from where the bones are.
     std::vector<std::vector<double>> shares;
     std::vector<BoneSwing> swings;   ///< sampled motions of the bodies, one per joint value and direction
@@ -27,8 +29,8 @@ struct SkinParameters {
     int iterations = 60;             ///< most solver iterations for each time that contacts are queried, >= 1
 };
 
-inline int insertionOf(const SkinParameters& parameters, std::size_t body) {
-    return parameters.insertions.empty() ? -1 : parameters.insertions[body];
+inline std::span<const int> chainOf(const SkinParameters& parameters, std::size_t body) {
+    return parameters.chains.empty() ? std::span<const int>() : parameters.chains[body];
 }
 
 constexpr int bodySteps = 16; ///< intervals of a muscle's activation range between tabulated surfaces

@@ -56,7 +56,7 @@ private:
         return found;
     }
 
-    /// Moves shares of one vertex from some frames to others, of each as much as it has of them together.
+    /// Changes the shares that one vertex has of some frames, of each in proportion to what it has.
     void shift(std::size_t v, double change, const std::vector<std::size_t>& to) {
         double sum = 0;
         for (const std::size_t f : to) sum += own_[f][v];
@@ -64,25 +64,60 @@ private:
             wanted_[f][v] += sum > 0 ? change * own_[f][v] / sum : f == to.front() ? change : 0;
     }
 
-    /// Adds what a muscle wants of the skin on it. Returns whether it is one between two bones.
+    /// The bones of a muscle that move by themselves, as skin has shares of them.
+    struct Bones {
+        std::vector<std::vector<std::size_t>> frames;      ///< of each the frames that move as it does
+        std::vector<std::pair<double, std::size_t>> stops; ///< places along the chain, rising, and whose
+    };
+
+    Bones bonesOf(std::size_t m) const {
+        const std::span<const int> chain = chainOf(parameters_, m);
+        Bones bones;
+        for (std::size_t k = 0; k <= chain.size(); ++k) {
+            std::vector<std::size_t> frames = framesAs(k == 0 ? m : static_cast<std::size_t>(chain[k - 1]));
+            if (frames.empty()) continue; // skin has no share of it
+            const auto known = std::ranges::find(bones.frames, frames) - bones.frames.begin();
+            if (known == std::ssize(bones.frames)) bones.frames.push_back(std::move(frames));
+            bones.stops.emplace_back(static_cast<double>(k) / static_cast<double>(chain.size()), known);
+        }
+        return bones;
+    }
+
+    /// How much of each of the bones what lies at a place along them has.
+    static std::vector<double> sharesAt(const Bones& bones, double place) {
+        std::vector<double> shares(bones.frames.size(), 0);
+        std::size_t k = 1;
+        while (k + 1 < bones.stops.size() && bones.stops[k].first < place) ++k;
+        const auto& [before, a] = bones.stops[k - 1];
+        const auto& [after, b] = bones.stops[k];
+        const double t = std::clamp((place - before) / (after - before), 0.0, 1.0);
+        shares[a] += 1 - t;
+        shares[b] += t;
+        return shares;
+    }
+
+    /// Adds what a muscle wants of the skin on it. Returns whether it is one over several bones.
     bool follow(std::size_t m) {
-        const int insertion = insertionOf(parameters_, m);
         const std::vector<double>& hold = attachment_.muscles[m];
-        const std::vector<double>& shares = anatomy_.bodies[m]->insertionShares();
-        if (insertion < 0 || hold.empty() || shares.empty() || parameters_.swings.empty()) return false;
-        const auto origin = framesAs(m), end = framesAs(static_cast<std::size_t>(insertion));
-        if (origin.empty() || end.empty() || origin == end) return false;
+        const std::vector<double>& along = anatomy_.bodies[m]->chainShares();
+        if (chainOf(parameters_, m).empty() || hold.empty() || along.empty() || parameters_.swings.empty())
+            return false;
+        const Bones bones = bonesOf(m);
+        if (bones.frames.size() < 2) return false;
         const std::vector<Tri>& triangles = anatomy_.bodies[m]->muscle().surface.triangles;
         for (std::size_t v = 0; v < hold.size(); ++v) {
             if (!(hold[v] > 0)) continue;
             const NearestPoint& near = attachment_.bindings[m][v];
-            double share = 0, atOrigin = 0, atEnd = 0;
-            for (int k = 0; k < 3; ++k) share += near.weights[k] * shares[triangles[near.triangle][k]];
-            for (const std::size_t f : origin) atOrigin += own_[f][v];
-            for (const std::size_t f : end) atEnd += own_[f][v];
-            const double change = hold[v] * ((atOrigin + atEnd) * share - atEnd);
-            shift(v, -change, origin);
-            shift(v, change, end);
+            double place = 0, sum = 0;
+            for (int k = 0; k < 3; ++k) place += near.weights[k] * along[triangles[near.triangle][k]];
+            std::vector<double> has(bones.frames.size(), 0);
+            for (std::size_t k = 0; k < has.size(); ++k) {
+                for (const std::size_t f : bones.frames[k]) has[k] += own_[f][v];
+                sum += has[k];
+            }
+            const std::vector<double> wanted = sharesAt(bones, place);
+            for (std::size_t k = 0; k < has.size(); ++k)
+                shift(v, hold[v] * (sum * wanted[k] - has[k]), bones.frames[k]);
         }
         return true;
     }

@@ -1,7 +1,7 @@
 #include "bake/compare/PushedSkin.h"
 
+#include "bake/motion/BoneChain.h"
 #include "bake/motion/ClosestPointQuery.h"
-#include "bake/motion/PoseBlend.h"
 
 #include <algorithm>
 
@@ -15,10 +15,10 @@ constexpr int pushRounds = 8; ///< spheres that one vertex leaves in an update, 
 
 PushedSkin::PushedSkin(const TriangleMesh& skin, const SkinTable& table,
                        const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-                       std::span<const int> insertions)
-    : skin_(skin), table_(table), insertions_(insertions.begin(), insertions.end()),
-      activations_(bodies.size(), 0), normals_(vertexNormals(skin)), places_(skin.vertices) {
-    insertions_.resize(bodies.size(), -1);
+                       std::vector<std::vector<int>> chains)
+    : skin_(skin), table_(table), chains_(std::move(chains)), activations_(bodies.size(), 0),
+      normals_(vertexNormals(skin)), places_(skin.vertices) {
+    chains_.resize(bodies.size());
     std::vector<std::vector<MusclePoint>> points(bodies.size());
     for (std::size_t s = 0; s < table.muscleOf.size(); ++s) {
         const std::uint32_t m = table.muscleOf[s];
@@ -28,24 +28,23 @@ PushedSkin::PushedSkin(const TriangleMesh& skin, const SkinTable& table,
     }
     for (std::size_t m = 0; m < bodies.size(); ++m) {
         const Muscle& muscle = bodies[m]->muscle();
-        sides_.push_back(muscle.side);
+        sides_.push_back(muscle.sides);
         tracks_.push_back(makeTrack(*bodies[m], points[m],
                                     activationNodes(muscle.activationLower, muscle.activationUpper)));
     }
 }
 
-/// The spheres of muscles and bones where these are now; of a muscle between two bones each goes with both.
+/// The spheres of muscles and bones where these are now; of a muscle over several each goes with two.
 SphereSet PushedSkin::spheresBelow() const {
     SphereSet now;
+    std::vector<ChainBlend> blends; // of each body
+    for (std::size_t m = 0; m < poses_.size(); ++m)
+        blends.emplace_back(chainMotion(poses_, m, chains_[m]), sides_[m]);
     for (std::size_t s = 0; s < at_.size(); ++s) {
         const std::uint32_t m = table_.muscleOf[s];
         const TrackPlace place = locate(tracks_[m].nodes, activations_[m]);
         Vec3 centre = trackPosition(tracks_[m], place, at_[s]);
-        if (!poses_.empty())
-            centre = (insertions_[m] < 0
-                          ? poses_[m]
-                          : blendBetween(poses_[m], poses_[insertions_[m]], shares_[s], sides_[m])) *
-                     centre;
+        if (!poses_.empty()) centre = poses_[m] * (blends[m].at(shares_[s]) * centre);
         now.push_back({centre, table_.table.b[s].radius * trackThickness(tracks_[m], place, at_[s])});
     }
     return now;

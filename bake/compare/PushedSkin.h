@@ -10,11 +10,11 @@ namespace tss::compare {
 /// itself: no elastic sheet ties them together.
 class PushedSkin {
 public:
-    /// bodies: muscles and bones in the order the table knows them, in the skin's frame. insertions: see
+    /// bodies: muscles and bones in the order the table knows them, in the skin's frame. chains: see
     /// SkinParameters. Keeps references to skin and table.
     PushedSkin(const TriangleMesh& skin, const SkinTable& table,
                const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
-               std::span<const int> insertions = {});
+               std::vector<std::vector<int>> chains = {});
 
     /// Moves each skin sphere out of the sphere that it is deepest in, until it overlaps none. activations:
     /// one per body. poses: motion of each since rest, in the skin's frame; empty: none moves. Returns
@@ -30,10 +30,10 @@ private:
     const TriangleMesh& skin_;
     const SkinTable& table_;
     std::vector<MuscleTrack> tracks_; ///< one per body
-    std::vector<int> insertions_;
-    std::vector<Eigen::Vector4d> sides_; ///< of each body: Muscle::side
-    std::vector<std::uint32_t> at_;      ///< of each sphere: which point of its body's track it is
-    std::vector<double> shares_;         ///< of each sphere: of the motion of the insertion's bone
+    std::vector<std::vector<int>> chains_;
+    std::vector<std::vector<Eigen::Vector4d>> sides_; ///< of each body: Muscle::sides
+    std::vector<std::uint32_t> at_; ///< of each sphere: which point of its body's track it is
+    std::vector<double> shares_;    ///< of each sphere: its place along its body's bones
     std::vector<double> activations_;
     std::vector<Pose> poses_;
     std::vector<Vec3> normals_; ///< at rest

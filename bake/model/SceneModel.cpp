@@ -46,28 +46,4 @@ std::string primName(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
 }
 
-std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin) {
-    std::vector<UnderSkin> under;
-    for (const int index : skin.muscles) {
-        const MuscleModel& muscle = scene.muscles.at(static_cast<std::size_t>(index));
-        under.push_back({index, muscle.body, muscle.bone, -1});
-    }
-    for (const int bone : skin.bones) under.push_back({-1, bone, bone, -1});
-    for (const int joint : skin.weights.joints)
-        if (std::ranges::find(skin.bones, joint) == skin.bones.end()) under.push_back({-1, -1, joint, -1});
-    for (std::size_t m = 0; m < skin.muscles.size(); ++m) {
-        const int bone = scene.muscles[skin.muscles[m]].insertionBone;
-        if (bone < 0) continue;
-        const auto moves = [&](const UnderSkin& u) { return u.bone == bone; };
-        auto found = std::ranges::find_if(under, moves);
-        if (found == under.end()) found = under.insert(under.end(), UnderSkin{-1, -1, bone, -1});
-        under[m].insertion = static_cast<int>(found - under.begin());
-    }
-    return under;
-}
-
-const std::string& pathOf(const SceneModel& scene, const UnderSkin& under) {
-    return under.muscle >= 0 ? scene.muscles[under.muscle].path : scene.bodies[under.bone].path;
-}
-
 } // namespace tss

@@ -119,21 +119,6 @@ struct SceneModel {
     std::shared_ptr<const Layer> layer; ///< what it was read from, with everything that it does not know
 };
 
-/// Something below a skin, or something that only moves it.
-struct UnderSkin {
-    int muscle = -1; ///< index into muscles; -1: a bone
-    int body = -1;   ///< whose surface it has; -1: none, a body that the skin's own weights name
-    int bone = -1;   ///< the body that it moves with; -1: with the skin
-    int insertion =
-        -1; ///< of a muscle between two bones, which of what is below the skin moves with the other
-};
-
-/// What is below a skin, in the order that its table knows: its muscles, then its bones; then the other
-/// bodies that its own weights name, and those that its muscles' insertions move with.
-std::vector<UnderSkin> underSkin(const SceneModel& scene, const SkinModel& skin);
-/// The muscle's prim, or the bone's.
-const std::string& pathOf(const SceneModel& scene, const UnderSkin& under);
-
 /// The motion of a pair: its chain of joints composed, B-local to A-local. The DOFs are the joints' in chain
 /// order; a joint crossed from body1 to body0 is inverted. DOF names are "<joint name>:<dof>" when there are
 /// several joints.

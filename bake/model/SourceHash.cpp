@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Sha256.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 
 #include <algorithm>
 #include <bit>
@@ -77,7 +78,7 @@ std::string limitsHash(const Motion& motion) {
     return hash.text();
 }
 
-/// What carries one end of a muscle, but for bones that the skin names itself.
+/// What carries a muscle in one place, but for bones that the skin names itself.
 void addCarrying(const SceneModel& scene, const SkinModel& skin, int bone, PartHash& meshes) {
     const Pose toSkin = scene.bodies[skin.body].placement.inverse();
     for (const int k : movingAsOne(scene, bone))
@@ -94,7 +95,7 @@ void addBones(const SceneModel& scene, const SkinModel& skin, PartHash& meshes, 
     std::vector<bool> above(scene.bodies.size(), false), seen(scene.joints.size(), false);
     bool spans = false;
     for (const UnderSkin& under : underSkin(scene, skin)) {
-        spans = spans || under.insertion >= 0;
+        spans = spans || !under.chain.empty();
         if (under.bone >= 0) above[under.bone] = true;
     }
     if (skin.bones.empty() && skin.weights.joints.empty() && !spans) return;
@@ -167,8 +168,9 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
         for (const Vec3& point : muscle.fibre) forms.add(point);
         forms.add(std::uint64_t(muscle.form)).add(muscle.anchor).add(muscle.maxContraction);
         travel.add(muscle.activationLower).add(muscle.activationUpper);
-        if (model.insertionBone < 0) continue;
-        for (const int bone : {model.bone, model.insertionBone}) {
+        std::vector<int> bones = muscleChain(scene, model);
+        if (!bones.empty()) bones.insert(bones.begin(), model.bone);
+        for (const int bone : bones) {
             travel.add(bone < 0 ? Pose::Identity()
                                 : Pose(body.placement.inverse() * scene.bodies[bone].placement));
             if (bone >= 0) addCarrying(scene, skin, bone, meshes);

@@ -16,13 +16,11 @@ struct Muscle {
     std::vector<Vec3> fibre; ///< polyline from origin to insertion, at least 2 points; of a ring once round,
                              ///< at least 3, the first not again at the end
     MuscleForm form = MuscleForm::Tube;
-    bool spans = false; ///< it lies between two bones, so that it deforms even where it never contracts
-    std::vector<double>
-        insertionShares;              ///< #V in [0, 1], of the motion of the insertion's bone, the rest being
-                                      ///< the origin's; empty: rising along the fibre as its shortening does,
-                                      ///< of a ring from 0 at its first point to 1 half way round
-    Eigen::Vector4d side{0, 0, 0, 1}; ///< reference quaternion, see DualPose::inHemisphereOf(): which way
-                                      ///< round the insertion's bone turns, seen from the origin's
+    bool spans = false; ///< it lies over two or more bones, so that it deforms even where it never contracts
+    std::vector<double> chainShares; ///< #V in [0, 1], place along its bones, see BoneChain.h; empty: rising
+                                     ///< along the fibre as its shortening does, of a ring from 0 at its
+                                     ///< first point to 1 half way round
+    std::vector<Eigen::Vector4d> sides; ///< see ChainBlend
     double anchor =
         0; ///< fraction along the fibre that stays where it is: 0 origin, 1 insertion; not of a ring
     double maxContraction = 0.2; ///< greatest shortening, as a fraction of the fibre's chord, of a ring's

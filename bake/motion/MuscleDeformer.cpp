@@ -89,7 +89,7 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         throw InputError("a muscle may shorten by at most " + std::to_string((1 - leastStretch) / peak) +
                          " of its " + (ring_ ? "length" : "chord") + " within its activation range");
     anchorIntegral_ = contractionIntegral(muscle_.anchor);
-    if (!muscle_.insertionShares.empty() && muscle_.insertionShares.size() != mesh.vertices.size())
+    if (!muscle_.chainShares.empty() && muscle_.chainShares.size() != mesh.vertices.size())
         throw InputError("a muscle between two bones needs one share a vertex");
 
     normals_ = vertexNormals(mesh);
@@ -101,9 +101,9 @@ MuscleDeformer::MuscleDeformer(Muscle muscle)
         const Vec3& x = mesh.vertices[v];
         const double s = parameter(x);
         const Vec3 offset = medial.empty() ? Vec3(x - linePoint(s)) : medial[v];
-        shares_.push_back(!muscle_.insertionShares.empty() ? muscle_.insertionShares[v]
-                          : ring_                          ? (1 - std::cos(2 * std::numbers::pi * s)) / 2
-                                                           : contractionIntegral(s));
+        shares_.push_back(!muscle_.chainShares.empty() ? muscle_.chainShares[v]
+                          : ring_                      ? (1 - std::cos(2 * std::numbers::pi * s)) / 2
+                                                       : contractionIntegral(s));
         points_.push_back({x, s, offset, normals_[v], 0, shares_.back()});
     }
     for (const double end : {lower, upper})
@@ -145,7 +145,7 @@ Vec3 MuscleDeformer::shiftAt(const MusclePoint& point, double activation) const 
     return shift == 0 ? Vec3(Vec3::Zero()) : Vec3(fibre_.point(s + shift) - fibre_.point(s));
 }
 
-double MuscleDeformer::insertionShare(const Vec3& rest) const {
+double MuscleDeformer::chainShare(const Vec3& rest) const {
     return bind(rest).share;
 }
 

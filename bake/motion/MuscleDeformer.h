@@ -16,7 +16,7 @@ struct MusclePoint {
                                 ///< line (tube, ring) or medial surface (sheet) to the surface
     Vec3 normal = Vec3::Zero(); ///< outward, of the nearest surface
     double height = 0;          ///< above the surface, negative inside, scene units
-    double share = 0;           ///< weight of the insertion's bone in its motion, in [0, 1]
+    double share = 0;           ///< place along the bones, see Muscle::chainShares
 };
 
 /// A muscle at one activation.
@@ -74,12 +74,12 @@ public:
     /// Local factor of the thickness at a fibre parameter: what the radius of a sphere inside grows by.
     double thickness(double s, const MuscleState& state) const;
 
-    /// Which share of a point's motion is that of the insertion's bone: of the nearest point of the surface.
-    double insertionShare(const Vec3& rest) const;
-    const std::vector<double>& insertionShares() const { return shares_; } ///< #V
+    /// Where along the bones a point goes: as the nearest point of the surface.
+    double chainShare(const Vec3& rest) const;
+    const std::vector<double>& chainShares() const { return shares_; } ///< #V
 
     /// How much of the muscle's shortening lies before a point, from 0 at the origin to 1 at the insertion;
-    /// of a ring its share of the insertion's bone.
+    /// of a ring its place along its bones.
     double alongShare(const MusclePoint& point) const {
         return ring_ ? point.share : contractionIntegral(point.s);
     }
@@ -101,7 +101,7 @@ private:
     std::vector<Tri> closed_;         ///< see closedTriangles()
     std::vector<Vec3> normals_;       ///< #V
     std::vector<MusclePoint> points_; ///< #V
-    std::vector<double> shares_;      ///< #V, see Muscle::insertionShares
+    std::vector<double> shares_;      ///< #V, see Muscle::chainShares
     double anchorIntegral_ = 0;
     double volume_ = 0;
 };

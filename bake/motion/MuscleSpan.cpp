@@ -7,18 +7,9 @@
 #include <cmath>
 
 namespace tss {
-namespace {
-
-Pose blended(double share, const DualPose& far) {
-    PoseBlend blend(true);
-    blend.add(share, far);
-    return blend.pose();
-}
-
-} // namespace
 
 MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
-    : closed_(muscle.closedTriangles()), side_(muscle.muscle().side), shares_(muscle.insertionShares()),
+    : closed_(muscle.closedTriangles()), sides_(muscle.muscle().sides), shares_(muscle.chainShares()),
       gradients_(shares_.size(), Vec3::Zero()) {
     const std::vector<MusclePoint>& points = muscle.surfacePoints();
     const TriangleMesh& surface = muscle.muscle().surface;
@@ -49,16 +40,14 @@ MuscleSpan::MuscleSpan(const MuscleDeformer& muscle, double unit)
     slope_ = swollenVolume(0, rest, swelling_, closed_)[1];
 }
 
-std::vector<Pose> MuscleSpan::posesAt(const Pose& far) const {
-    const DualPose dual = DualPose(far).inHemisphereOf(side_);
+std::vector<Pose> MuscleSpan::posesBy(const ChainBlend& blend) const {
     std::vector<Pose> poses;
     poses.reserve(shares_.size());
-    for (const double share : shares_)
-        poses.push_back(share == 0 ? Pose::Identity() : share == 1 ? far : blended(share, dual));
+    for (const double share : shares_) poses.push_back(blend.at(share));
     return poses;
 }
 
-double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> places) const {
+double MuscleSpan::swellBy(const std::vector<Pose>& poses, std::span<const Vec3> places) const {
     // Bounds of the factor. A sheet compressed to half its length becomes twice as thick on average and three
     // times where it swells most, which is a factor of 2.
     constexpr double least = -0.9, most = 2;
@@ -78,17 +67,17 @@ double MuscleSpan::swell(const std::vector<Pose>& poses, std::span<const Vec3> p
     return boundedSwelling(swollenVolume(wanted, now, out, closed_), leastSlope * slope_, least, most);
 }
 
-double MuscleSpan::swell(const Pose& far, std::span<const Vec3> places) const {
-    return isIdentity(far) ? 0 : swell(posesAt(far), places);
+double MuscleSpan::swell(const ChainMotion& bones, std::span<const Vec3> places) const {
+    return isAtRest(bones) ? 0 : swellBy(posesBy({bones, sides_}), places);
 }
 
-double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3> normals) const {
+double MuscleSpan::carry(const ChainMotion& bones, std::span<Vec3> places, std::span<Vec3> normals) const {
     constexpr double side = 1e-3;         // step of the share for the central difference below
     constexpr double leastStretch = 0.05; // lower bound of the local stretch that turns normals
-    if (isIdentity(far)) return 0;
-    const std::vector<Pose> poses = posesAt(far);
-    const double factor = swell(poses, places);
-    const DualPose dual = DualPose(far).inHemisphereOf(side_);
+    if (isAtRest(bones)) return 0;
+    const ChainBlend blend(bones, sides_);
+    const std::vector<Pose> poses = posesBy(blend);
+    const double factor = swellBy(poses, places);
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (!normals.empty()) {
             // The place depends on the share too, so the deformation gradient is R (I + u g^T), where g is
@@ -96,8 +85,8 @@ double MuscleSpan::carry(const Pose& far, std::span<Vec3> places, std::span<Vec3
             // transpose (Sherman-Morrison).
             Vec3& normal = normals[v];
             if (!gradients_[v].isZero()) {
-                const Vec3 along = blended(shares_[v] + side, dual) * places[v] -
-                                   blended(shares_[v] - side, dual) * places[v];
+                const Vec3 along =
+                    blend.at(shares_[v] + side) * places[v] - blend.at(shares_[v] - side) * places[v];
                 const Vec3 u = poses[v].linear().transpose() * along / (2 * side);
                 normal -= gradients_[v] * (u.dot(normal) / std::max(1 + u.dot(gradients_[v]), leastStretch));
                 if (normal.squaredNorm() > 0) normal.normalize();
@@ -114,9 +103,9 @@ MuscleShape::MuscleShape(const MuscleDeformer& muscle) : muscle_(&muscle) {
         span_ = std::make_shared<const MuscleSpan>(muscle);
 }
 
-std::vector<Vec3> MuscleShape::vertices(double activation, const Pose& far) const {
+std::vector<Vec3> MuscleShape::vertices(double activation, const ChainMotion& bones) const {
     std::vector<Vec3> places = muscle_->vertices(activation);
-    if (span_) span_->carry(far, places);
+    if (span_) span_->carry(bones, places);
     return places;
 }
 

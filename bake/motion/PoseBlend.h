@@ -67,14 +67,4 @@ private:
     bool keepSigns_ = false;
 };
 
-/// Interpolates between two motions; share 0 is `from` bit for bit. hemisphere: reference quaternion that
-/// tells which way round the relative rotation goes, see DualPose::inHemisphereOf().
-inline Pose blendBetween(const Pose& from, const Pose& to, double share,
-                         const Eigen::Vector4d& hemisphere = {0, 0, 0, 1}) {
-    if (share == 0 || from.matrix() == to.matrix()) return from;
-    PoseBlend blend(true);
-    blend.add(share, DualPose(from.inverse(Eigen::Isometry) * to).inHemisphereOf(hemisphere));
-    return from * blend.pose();
-}
-
 } // namespace tss

@@ -4,6 +4,7 @@
 #include "bake/bind/SkinMoves.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/SourceHash.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleSpan.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/pipeline/FillPair.h"
@@ -44,17 +45,21 @@ SphereFit fitUnder(const TriangleMesh& surface, const BakeOptions& options, doub
 constexpr double worthSaying = 0.01; ///< of the volume
 
 /// By how much of its volume a muscle is off at worst where its bones come to, at rest and fully active.
-double worstVolume(const MuscleDeformer& muscle, const std::vector<DualPose>& far, const Pose& toSkin) {
+double worstVolume(const MuscleDeformer& muscle, const MuscleWays& ways, const Pose& toSkin) {
     const MuscleSpan span(muscle);
     const std::vector<Tri>& triangles = muscle.closedTriangles();
     double worst = 0;
     for (const double activation : {muscle.muscle().activationLower, muscle.muscle().activationUpper}) {
         const std::vector<Vec3> rest = muscle.vertices(activation);
-        for (const DualPose& motion : far) {
-            PoseBlend blend(true);
-            blend.add(1, motion);
+        for (const std::vector<DualPose>& motion : ways.motions) {
+            ChainMotion bones;
+            for (const DualPose& bone : motion) {
+                PoseBlend blend(true);
+                blend.add(1, bone);
+                bones.push_back(toSkin * blend.pose() * toSkin.inverse(Eigen::Isometry));
+            }
             std::vector<Vec3> places = rest;
-            span.carry(toSkin * blend.pose() * toSkin.inverse(Eigen::Isometry), places);
+            span.carry(bones, places);
             const double off = enclosedVolume(places, triangles) / muscle.restVolume() - 1;
             if (std::abs(off) > std::abs(worst)) worst = off;
         }
@@ -62,7 +67,7 @@ double worstVolume(const MuscleDeformer& muscle, const std::vector<DualPose>& fa
     return worst;
 }
 
-/// Notes about the muscles between two bones that lie under a skin: those that cannot keep their volume
+/// Notes about the muscles over several bones that lie under a skin: those that cannot keep their volume
 /// everywhere within the joints' limits, and those that are turned so far that it is ambiguous which way
 /// round their bones have come.
 std::vector<std::string> muscleNotes(const SceneModel& scene, const SkinModel& skin,
@@ -70,7 +75,7 @@ std::vector<std::string> muscleNotes(const SceneModel& scene, const SkinModel& s
     std::vector<std::string> notes;
     const std::vector<UnderSkin> under = underSkin(scene, skin);
     for (std::size_t m = 0; m < under.size(); ++m) {
-        if (under[m].muscle < 0 || under[m].insertion < 0 || under[m].bone < 0) continue;
+        if (under[m].muscle < 0 || under[m].chain.empty() || under[m].bone < 0) continue;
         const MuscleModel& model = scene.muscles[under[m].muscle];
         const MuscleWays ways = muscleWays(scene, model);
         if (ways.unclear)
@@ -79,7 +84,7 @@ std::vector<std::string> muscleNotes(const SceneModel& scene, const SkinModel& s
                                          "one way round to the other");
         const Pose toSkin =
             scene.bodies[skin.body].placement.inverse(Eigen::Isometry) * scene.bodies[model.body].placement;
-        if (const double worst = worstVolume(*muscles[m], ways.far, toSkin); std::abs(worst) > worthSaying)
+        if (const double worst = worstVolume(*muscles[m], ways, toSkin); std::abs(worst) > worthSaying)
             notes.push_back(fmt::format("{} cannot keep its volume within the limits of the joints between "
                                         "its bones: {:+.0f} % where they draw it together or apart the most",
                                         model.path, 100 * worst));
@@ -130,7 +135,7 @@ void bakeSkin(SceneModel& scene, SkinModel& skin, const BakeOptions& options, Pa
     search.shares = std::move(moves.shares);
     search.swings = parameters.swings;
     search.swings.insert(search.swings.end(), parameters.together.begin(), parameters.together.end());
-    search.insertions = parameters.insertions;
+    search.chains = parameters.chains;
     skin.table = std::make_shared<SkinTable>(searchSkin(mesh, filled.searched, search, progress));
     skin.sourceHash = sourceHash(scene, skin);
 }

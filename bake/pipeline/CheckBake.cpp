@@ -1,6 +1,7 @@
 #include "bake/pipeline/CheckBake.h"
 
 #include "bake/geometry/MeshAudit.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/pipeline/FillPair.h"

@@ -2,7 +2,6 @@
 
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
-#include "bake/motion/BoneSwing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,20 +62,19 @@ std::vector<double> ShapesBelow::depths(std::span<const Vec3> points, DepthMemor
 BelowSkin::BelowSkin(std::vector<std::shared_ptr<const MuscleDeformer>> muscles,
                      const std::vector<UnderSkin>& under)
     : muscles_(std::move(muscles)), bones_(muscles_.size()) {
-    for (const UnderSkin& one : under) insertions_.push_back(one.insertion);
+    for (const UnderSkin& one : under) chains_.push_back(one.chain);
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
         shapes_.emplace_back(*muscles_[m]);
         const TriangleMesh& surface = muscles_[m]->muscle().surface;
-        if (muscles_[m]->rigid() && insertions_[m] < 0 && !surface.empty())
+        if (muscles_[m]->rigid() && chains_[m].empty() && !surface.empty())
             bones_[m] = std::make_shared<const Solid>(surface);
     }
 }
 
 std::vector<Vec3> BelowSkin::vertices(std::size_t m, std::span<const double> activations,
                                       std::span<const Pose> poses) const {
-    const bool spans = insertions_[m] >= 0 && !poses.empty();
     return shapes_[m].vertices(activations[m],
-                               spans ? between(poses[m], poses[insertions_[m]]) : Pose::Identity());
+                               poses.empty() ? ChainMotion() : chainMotion(poses, m, chains_[m]));
 }
 
 ShapesBelow BelowSkin::at(std::span<const double> activations, std::span<const Pose> poses,

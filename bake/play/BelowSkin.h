@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/geometry/Solid.h"
-#include "bake/model/SceneModel.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleSpan.h"
 
 #include <memory>
@@ -61,7 +61,7 @@ public:
 private:
     std::vector<std::shared_ptr<const MuscleDeformer>> muscles_;
     std::vector<MuscleShape> shapes_;                 ///< of each
-    std::vector<int> insertions_;                     ///< of each: see UnderSkin
+    std::vector<std::vector<int>> chains_;            ///< of each: see UnderSkin
     std::vector<std::shared_ptr<const Solid>> bones_; ///< of each whose shape never changes; else null
 };
 

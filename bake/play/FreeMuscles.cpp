@@ -1,6 +1,7 @@
 #include "bake/play/FreeMuscles.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/play/MuscleWays.h"
 #include "bake/play/SkinSetup.h"
 
@@ -20,7 +21,8 @@ FreeMuscles::FreeMuscles(const SceneModel& scene, std::vector<std::string>& warn
         if (underSomeSkin(scene, m)) continue;
         try {
             auto deformer = std::make_shared<const MuscleDeformer>(muscleOf(scene, model));
-            items_.push_back({&model, deformer, MuscleShape(*deformer), 0});
+            items_.push_back({&model, deformer, MuscleShape(*deformer),
+                              model.bone < 0 ? std::vector<int>() : muscleChain(scene, model), 0});
         } catch (const InputError& error) {
             warnings.push_back(model.path + " does not play: " + error.message);
         }
@@ -35,9 +37,11 @@ void FreeMuscles::pose(std::vector<TriangleMesh>& meshes, std::vector<Pose>& pla
     const std::vector<Pose> now = placements;
     for (const Item& item : items_) {
         const MuscleModel& model = *item.model;
-        const bool between = model.bone >= 0 && model.insertionBone >= 0;
-        const Pose far = between ? insertionMotion(scene_, model, now) : Pose::Identity();
-        if (!item.deformer->rigid()) meshes[model.body].vertices = item.shape.vertices(item.activation, far);
+        if (!item.deformer->rigid()) {
+            const auto bones =
+                item.chain.empty() ? ChainMotion() : muscleMotion(scene_, model, item.chain, now);
+            meshes[model.body].vertices = item.shape.vertices(item.activation, bones);
+        }
         if (model.bone < 0) continue;
         // It goes with its bone, whatever its own prim does.
         const Pose &bone = scene_.bodies[model.bone].placement, &body = scene_.bodies[model.body].placement;

@@ -23,7 +23,8 @@ private:
     struct Item {
         const MuscleModel* model;
         std::shared_ptr<const MuscleDeformer> deformer;
-        MuscleShape shape; ///< of the deformer
+        MuscleShape shape;      ///< of the deformer
+        std::vector<int> chain; ///< its muscleChain(), where its origin is on a bone
         double activation;
     };
     const SceneModel& scene_;

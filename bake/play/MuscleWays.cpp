@@ -2,6 +2,7 @@
 
 #include "bake/model/JointGraph.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,48 +59,78 @@ std::vector<Values> waysOver(const std::vector<std::vector<Values>>& ends, const
     return single;
 }
 
+/// Of each bone of a chain the quaternion that turns it against the bone before it.
+using Steps = std::vector<Eigen::Vector4d>;
+
+/// The motions of a chain's bones with the signs of their steps.
+std::vector<DualPose> turnedAs(const ChainMotion& motion, const Steps& steps) {
+    std::vector<DualPose> result;
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        turn = turn * Eigen::Quaterniond(steps[k]);
+        result.push_back(DualPose(motion[k]).inHemisphereOf(turn.coeffs()));
+    }
+    return result;
+}
+
 } // namespace
 
-Pose insertionMotion(const SceneModel& scene, const MuscleModel& muscle, std::span<const Pose> placements) {
+ChainMotion muscleMotion(const SceneModel& scene, const MuscleModel& muscle, std::span<const int> chain,
+                         std::span<const Pose> placements) {
     const auto moved = [&](int body) {
         return Pose(placements[body] * scene.bodies[body].placement.inverse(Eigen::Isometry));
     };
     const Pose& surface = scene.bodies[muscle.body].placement;
-    const Pose origin = moved(muscle.bone), insertion = moved(muscle.insertionBone);
-    if (origin.matrix() == insertion.matrix()) return Pose::Identity();
-    return surface.inverse(Eigen::Isometry) * origin.inverse(Eigen::Isometry) * insertion * surface;
+    const Pose origin = moved(muscle.bone);
+    ChainMotion motion;
+    for (const int body : chain) {
+        const Pose bone = moved(body);
+        motion.push_back(
+            origin.matrix() == bone.matrix()
+                ? Pose::Identity()
+                : Pose(surface.inverse(Eigen::Isometry) * origin.inverse(Eigen::Isometry) * bone * surface));
+    }
+    return motion;
 }
 
 MuscleWays muscleWays(const SceneModel& scene, const MuscleModel& muscle) {
     MuscleWays ways;
-    const auto chain = findChain(scene.joints, muscle.bone, muscle.insertionBone);
-    if (!chain) return ways;
+    const std::vector<int> chain = muscleChain(scene, muscle);
+    const auto joints = findChain(scene.joints, muscle.bone, muscle.insertionBone);
+    if (!joints) return ways;
     const Values rest = restValues(scene);
-    std::vector<DualPose> all;
-    Eigen::Vector4d sum = ways.side;
-    for (const Values& end : waysOver(jointEnds(scene, *chain, rest), rest)) {
-        Eigen::Vector4d last(0, 0, 0, 1);
+    const Eigen::Vector4d unturned(0, 0, 0, 1);
+    std::vector<Steps> all;
+    Steps sum(chain.size(), unturned);
+    ways.sides = sum;
+    for (const Values& end : waysOver(jointEnds(scene, *joints, rest), rest)) {
+        Steps last(chain.size(), unturned);
         for (int s = 1; s <= waySamples; ++s) {
             Values values = rest;
             for (std::size_t k = 0; k < rest.size(); ++k)
                 if (end[k] != rest[k]) values[k] += (end[k] - rest[k]) * s / waySamples;
-            all.push_back(
-                DualPose(insertionMotion(scene, muscle, posedBodies(scene, values))).inHemisphereOf(last));
-            last = all.back().real;
-            sum += last;
-            if (s % kept == 0) ways.far.push_back(all.back());
+            const ChainMotion motion = muscleMotion(scene, muscle, chain, posedBodies(scene, values));
+            const ChainBlend blend(motion, last);
+            for (std::size_t k = 0; k < chain.size(); ++k) sum[k] += last[k] = blend.steps()[k].real;
+            all.push_back(last);
+            if (s % kept == 0) ways.motions.push_back(turnedAs(motion, last));
         }
     }
-    const auto fails = [&](const Eigen::Vector4d& side) {
-        return std::any_of(all.begin(), all.end(), [&](const DualPose& motion) {
-            return side.dot(motion.real) < -1e-6 || motion.real[3] < wholeTurnNear;
-        });
-    };
-    // Rest tells where nothing turns by more than half a turn.
-    if (!fails(ways.side)) return ways;
-    const Eigen::Vector4d mean = sum.normalized();
-    ways.unclear = fails(mean);
-    if (!ways.unclear) ways.side = mean;
+    Steps mean;
+    for (const Eigen::Vector4d& side : sum) mean.push_back(side.normalized());
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+        const auto fails = [&](const Eigen::Vector4d& side) {
+            return std::ranges::any_of(all, [&](const Steps& steps) {
+                return side.dot(steps[k]) < -1e-6 || steps[k][3] < wholeTurnNear;
+            });
+        };
+        // Rest tells where nothing turns by more than half a turn.
+        if (!fails(ways.sides[k])) continue;
+        if (fails(mean[k]))
+            ways.unclear = true;
+        else
+            ways.sides[k] = mean[k];
+    }
     return ways;
 }
 

@@ -3,6 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/bind/MuscleShares.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/play/MuscleWays.h"
 #include "bake/respond/SkinRig.h"
@@ -87,8 +88,7 @@ void addSwings(const SceneModel& scene, const SkinModel& skin, std::vector<std::
     std::erase_if(parameters.together, [](const BoneSwing& swing) { return swing.empty(); });
 }
 
-/// What each body under a skin moves with: one frame a bone. What only an insertion moves with carries no
-/// skin.
+/// What each body under a skin moves with: one frame a bone. What only a muscle moves with carries no skin.
 std::vector<int> framesOf(const SceneModel& scene, const SkinModel& skin) {
     std::vector<int> bones, frames;
     const std::vector<int>& joints = skin.weights.joints;
@@ -159,10 +159,10 @@ Muscle muscleOf(const SceneModel& scene, const MuscleModel& model) {
     muscle.spans = model.insertionBone >= 0;
     if (!muscle.spans || model.bone < 0) return muscle;
     const MuscleWays ways = muscleWays(scene, model);
-    muscle.side = ways.side;
-    muscle.insertionShares =
-        insertionShares(muscle.surface, carrying(scene, model.bone, model.body),
-                        carrying(scene, model.insertionBone, model.body), muscle.form, ways.far);
+    muscle.sides = ways.sides;
+    std::vector<TriangleMesh> bones{carrying(scene, model.bone, model.body)};
+    for (const int bone : muscleChain(scene, model)) bones.push_back(carrying(scene, bone, model.body));
+    muscle.chainShares = chainShares(muscle.surface, bones, muscle.form, ways.motions);
     return muscle;
 }
 
@@ -180,7 +180,7 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
         if (pose.matrix() != Pose::Identity().matrix()) {
             for (Vec3& v : muscle.surface.vertices) v = pose * v;
             for (Vec3& v : muscle.fibre) v = pose * v;
-            muscle.side.head<3>() = pose.linear() * muscle.side.head<3>();
+            for (Eigen::Vector4d& side : muscle.sides) side.head<3>() = pose.linear() * side.head<3>();
         }
         try {
             result.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
@@ -200,7 +200,7 @@ SkinParameters skinParameters(const SceneModel& scene, const SkinModel& skin,
     parameters.bendCompliance = skin.bendCompliance;
     parameters.selfContact = skin.selfContact;
     parameters.frames = framesOf(scene, skin);
-    for (const UnderSkin& under : underSkin(scene, skin)) parameters.insertions.push_back(under.insertion);
+    for (const UnderSkin& under : underSkin(scene, skin)) parameters.chains.push_back(under.chain);
     parameters.shares = sharesOf(scene, skin, parameters.frames);
     addSwings(scene, skin, farTurns, parameters);
     parameters.tether = skin.tether;

@@ -2,6 +2,7 @@
 
 #include "bake/compare/PushedSkin.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/play/BelowSkin.h"
@@ -263,10 +264,9 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
     for (const int sweeps : settings) {
         std::vector<double> perStep;
         study.answers.push_back(
-            sweeps > 0
-                ? answerOf(played, rigOf(sweeps), perStep)
-                : answerOf(played, compare::PushedSkin(mesh, *skin.table, muscles, parameters.insertions),
-                           perStep));
+            sweeps > 0 ? answerOf(played, rigOf(sweeps), perStep)
+                       : answerOf(played, compare::PushedSkin(mesh, *skin.table, muscles, parameters.chains),
+                                  perStep));
         study.answers.back().sweeps = sweeps;
         study.answers.back().usual = sweeps == usual;
         if (sweeps == usual) study.perStepUsual = std::move(perStep);

@@ -151,7 +151,7 @@ private:
         for (std::size_t m = 0; m < rig_.bodies.size(); ++m) {
             const SkinBody& body = rig_.bodies[m];
             const SkinScene::Placed& now = scene_.bodies[m];
-            const bool still = !atRest_ && now.activation == 0 && !now.moved && isIdentity(now.far);
+            const bool still = !atRest_ && now.activation == 0 && !now.moved && isAtRest(now.bones);
             eachGroup(body.count, [&](std::size_t first, std::size_t last) {
                 MovingTriangles::Group group;
                 if (atRest_) group.facings.extend(Vec3(0, 0, 0));

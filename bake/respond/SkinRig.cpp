@@ -133,7 +133,7 @@ void addBlocks(SkinRig& rig) {
     rig.around = Lists<std::uint32_t>(around);
 }
 
-SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, int insertion,
+SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::span<const int> chain,
                 std::uint32_t first) {
     const Muscle& muscle = deformer.muscle();
     SkinBody body;
@@ -143,8 +143,8 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, i
     body.across = trianglesAcross(body.triangles);
     body.nodes = activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps);
     body.frame = frame;
-    body.insertion = insertion;
-    if (insertion >= 0) body.span = std::make_shared<const MuscleSpan>(deformer, rig.size);
+    body.chain.assign(chain.begin(), chain.end());
+    if (!chain.empty()) body.span = std::make_shared<const MuscleSpan>(deformer, rig.size);
     for (const Vec3& x : muscle.surface.vertices) body.rest.push_back(placeOf(rig, x));
     TriangleMesh mesh = muscle.surface;
     for (const double node : body.nodes) {
@@ -173,7 +173,7 @@ void addBodies(SkinRig& rig, const SkinAnatomy& anatomy, const std::vector<int>&
     }
     parallelFor(rig.bodies.size(), [&](std::size_t m) {
         rig.bodies[m] =
-            bodyOf(rig, *anatomy.bodies[m], frames[m], insertionOf(rig.parameters, m), rig.bodies[m].first);
+            bodyOf(rig, *anatomy.bodies[m], frames[m], chainOf(rig.parameters, m), rig.bodies[m].first);
     });
     rig.bodyVertices = first;
 }

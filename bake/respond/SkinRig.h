@@ -27,8 +27,8 @@ struct SkinBody {
     std::vector<float> room; ///< of a muscle, #count: radius of the ball inside that touches it there at rest
     std::vector<std::uint32_t> blocks;                ///< blocks of skin vertices that it displaces
     int frame = -1;                                   ///< see SkinParameters::frames
-    int insertion = -1;                               ///< see SkinParameters::insertions
-    std::shared_ptr<const MuscleSpan> span;           ///< null where insertion is -1
+    std::vector<int> chain;                           ///< see SkinParameters::chains
+    std::shared_ptr<const MuscleSpan> span;           ///< null where the chain is empty
     std::shared_ptr<const TriangleMesh> mesh;         ///< of a bone; null: a muscle
     std::shared_ptr<const ClosestPointQuery> locator; ///< on `mesh`
 

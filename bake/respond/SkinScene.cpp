@@ -5,14 +5,14 @@
 namespace tss {
 namespace {
 
-/// Deforms a muscle between two bones by the motion of its insertion; `moves` include its swelling.
-void spanMuscle(const SkinBody& body, const Pose& far, SkinScene::Placed& placed, SkinScene& scene) {
+/// Deforms a muscle over several bones by their motions; `moves` include its swelling.
+void spanMuscle(const SkinBody& body, SkinScene::Placed& placed, SkinScene& scene) {
     std::vector<Vec3> places(body.count), normals(body.count);
     for (std::uint32_t v = 0; v < body.count; ++v) {
         places[v] = scene.surface[body.first + v].head<3>().cast<double>();
         normals[v] = scene.normals[body.first + v].head<3>().cast<double>();
     }
-    const double swell = body.span->carry(far, places, normals);
+    const double swell = body.span->carry(placed.bones, places, normals);
     for (std::uint32_t v = 0; v < body.count; ++v) {
         scene.surface[body.first + v].head<3>() = places[v].cast<float>();
         scene.normals[body.first + v].head<3>() = normals[v].cast<float>();
@@ -21,12 +21,13 @@ void spanMuscle(const SkinBody& body, const Pose& far, SkinScene::Placed& placed
     placed.strain = std::max(placed.strain, body.strainOf(scene.surface.data() + body.first));
 }
 
-/// Interpolates the surface at an activation. far: motion of the insertion's bone seen from the origin's.
-void placeSurface(const SkinBody& body, double activation, const Pose& far, SkinScene::Placed& placed,
+/// Interpolates the surface at an activation. bones: of a muscle over several, their motions.
+void placeSurface(const SkinBody& body, double activation, ChainMotion bones, SkinScene::Placed& placed,
                   SkinScene& scene) {
-    if (placed.activation == activation && placed.far.matrix() == far.matrix()) return;
+    const auto same = [](const Pose& a, const Pose& b) { return a.matrix() == b.matrix(); };
+    if (placed.activation == activation && std::ranges::equal(placed.bones, bones, same)) return;
     placed.activation = activation;
-    placed.far = far;
+    placed.bones = std::move(bones);
     const TrackPlace at = placed.at = locate(body.nodes, activation);
     const float t = static_cast<float>(at.t);
     const std::size_t from = at.node * body.count, to = at.t == 0 ? from : from + body.count;
@@ -43,7 +44,7 @@ void placeSurface(const SkinBody& body, double activation, const Pose& far, Skin
     }
     placed.strain = body.strain[at.node];
     if (at.t != 0) placed.strain = std::max(placed.strain, body.strain[at.node + 1]);
-    if (!isIdentity(far)) spanMuscle(body, far, placed, scene);
+    if (!isAtRest(placed.bones)) spanMuscle(body, placed, scene);
 }
 
 /// The position of a vertex by dual quaternion skinning, after muscles have displaced it by `sum`; rotates
@@ -102,20 +103,19 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
     const auto wake = [&](const std::vector<std::uint32_t>& blocks) {
         for (const std::uint32_t b : blocks) scene.live[b] |= 2;
     };
+    std::vector<Pose> local;
+    for (const Pose& pose : poses) local.push_back(rig.local(pose));
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
         SkinScene::Placed& placed = scene.bodies[m];
-        const Pose far = body.insertion < 0 ? Pose::Identity()
-                                            : between(rig.local(poses[m]), rig.local(poses[body.insertion]));
-        placeSurface(body, activations[m], far, placed, scene);
-        if (activations[m] != 0 || !isIdentity(far)) wake(body.blocks);
+        placeSurface(body, activations[m], chainMotion(local, m, body.chain), placed, scene);
+        if (activations[m] != 0 || !isAtRest(placed.bones)) wake(body.blocks);
         placed.moved = !isIdentity(poses[m]);
         if (!placed.moved) continue;
-        const Pose local = rig.local(poses[m]);
-        placed.turn = local.linear().cast<float>();
-        placed.shift = local.translation().cast<float>();
+        placed.turn = local[m].linear().cast<float>();
+        placed.shift = local[m].translation().cast<float>();
         if (body.frame < 0 || !scene.atRest[body.frame]) continue;
-        scene.frames[body.frame] = DualPose(local);
+        scene.frames[body.frame] = DualPose(local[m]);
         scene.atRest[body.frame] = false;
         wake(rig.frameBlocks[body.frame]);
     }

@@ -5,7 +5,7 @@
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/TriangleDistance.h"
 #include "bake/geometry/TrianglePoint.h"
-#include "bake/motion/PoseBlend.h"
+#include "bake/motion/BoneChain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +20,16 @@ bool apart(const Box& a, const Box& b, double distance) {
     return a.squaredExteriorDistance(b) > (1 + 1e-9) * distance * distance;
 }
 
-/// The spheres of a muscle or bone that move alike, with the muscle's own frame: all of them, or, between two
-/// bones, those whose share of the insertion's motion is next to `share`.
+/// The spheres of a muscle or bone that move alike, with the muscle's own frame: all of them, or, over
+/// several bones, those whose place along these is next to `share`.
 struct SphereGroup {
     double share = 0;
     std::vector<std::uint32_t> spheres;
     Bvh tree; ///< over what each of them sweeps
 };
 
-/// Between two bones spheres are taken together that are next to one of so many shares.
-constexpr int spanStops = 9;
+/// From one bone to the next spheres are taken together that are next to one of so many places.
+constexpr int spanSteps = 8;
 
 /// The moving spheres of one muscle, and the skin that they were found to reach.
 struct MuscleSweep {
@@ -37,8 +37,8 @@ struct MuscleSweep {
     std::vector<double> radii; ///< #nodes blocks of #spheres
     std::vector<Box> swept;    ///< #spheres: everything that each sweeps
     std::vector<SphereGroup> groups;
-    Eigen::Vector4d side;                 ///< Muscle::side
-    int insertion = -1;                   ///< as in SkinSearchOptions
+    std::vector<Eigen::Vector4d> sides;   ///< Muscle::sides
+    std::vector<int> chain;               ///< as in SkinSearchOptions
     std::vector<double> carried;          ///< #V: how far its contraction carries a vertex, at most
     std::vector<std::vector<bool>> found; ///< #V of #spheres, or of none
 };
@@ -56,13 +56,14 @@ Box sweptBox(const MuscleSweep& sweep, std::size_t j) {
 }
 
 std::vector<SphereGroup> groupsOf(const MuscleSweep& sweep, const SkinSearchMuscle& muscle) {
-    std::vector<SphereGroup> groups(sweep.insertion < 0 ? 1 : spanStops);
-    for (std::size_t stop = 0; stop < groups.size(); ++stop)
-        groups[stop].share = static_cast<double>(stop) / (spanStops - 1);
+    const std::size_t steps = spanSteps * sweep.chain.size();
+    std::vector<SphereGroup> groups(steps + 1);
+    for (std::size_t stop = 1; stop <= steps; ++stop)
+        groups[stop].share = static_cast<double>(stop) / static_cast<double>(steps);
     for (std::uint32_t j = 0; j < muscle.spheres.size(); ++j) {
-        const double share =
-            sweep.insertion < 0 ? 0 : muscle.deformer->insertionShare(muscle.spheres[j].centre);
-        groups[static_cast<std::size_t>(std::lround(share * (spanStops - 1)))].spheres.push_back(j);
+        const double share = steps == 0 ? 0 : muscle.deformer->chainShare(muscle.spheres[j].centre);
+        groups[static_cast<std::size_t>(std::lround(share * static_cast<double>(steps)))].spheres.push_back(
+            j);
     }
     for (SphereGroup& group : groups) {
         std::vector<Box> boxes;
@@ -72,7 +73,7 @@ std::vector<SphereGroup> groupsOf(const MuscleSweep& sweep, const SkinSearchMusc
     return groups;
 }
 
-MuscleSweep makeSweep(const SkinSearchMuscle& muscle, int insertion, std::size_t vertices) {
+MuscleSweep makeSweep(const SkinSearchMuscle& muscle, std::vector<int> chain, std::size_t vertices) {
     std::vector<MusclePoint> points;
     for (const Sphere& s : muscle.spheres) points.push_back(muscle.deformer->bind(s.centre));
     const Muscle& m = muscle.deformer->muscle();
@@ -82,8 +83,8 @@ MuscleSweep makeSweep(const SkinSearchMuscle& muscle, int insertion, std::size_t
     for (std::size_t i = 0; i < sweep.spheres.thicknesses.size(); ++i)
         sweep.radii.push_back(sweep.spheres.thicknesses[i] * muscle.spheres[i % points.size()].radius);
     for (std::size_t j = 0; j < points.size(); ++j) sweep.swept.push_back(sweptBox(sweep, j));
-    sweep.side = m.side;
-    sweep.insertion = insertion;
+    sweep.sides = m.sides;
+    sweep.chain = std::move(chain);
     sweep.groups = groupsOf(sweep, muscle);
     sweep.carried.resize(vertices, 0);
     sweep.found.resize(vertices);
@@ -184,15 +185,12 @@ std::vector<std::vector<Vec3>> swungPlaces(const TriangleMesh& skin, const BoneS
     return places;
 }
 
-/// From the skin's frame to that of a place of muscle m that makes a share of its insertion's motion, at rest
-/// and at each station.
+/// From the skin's frame to that of a place along the bones of muscle m, at rest and at each station.
 std::vector<Pose> viewsOf(const MuscleSweep& sweep, std::size_t m, double share, const BoneSwing& swing) {
     std::vector<Pose> views{Pose::Identity()};
     for (const std::vector<Pose>& station : swing)
-        views.push_back((sweep.insertion < 0
-                             ? station[m]
-                             : blendBetween(station[m], station[sweep.insertion], share, sweep.side))
-                            .inverse());
+        views.push_back(
+            (station[m] * ChainBlend(chainMotion(station, m, sweep.chain), sweep.sides).at(share)).inverse());
     return views;
 }
 
@@ -204,8 +202,8 @@ void searchSwing(MuscleSweep& sweep, std::size_t m, const SphereGroup& group, co
     if (group.spheres.empty()) return;
     const std::vector<Pose> views = viewsOf(sweep, m, group.share, swing);
     std::vector<Pose> beside; // seen from half way to the next group
-    const double half = 0.5 / (spanStops - 1);
-    if (sweep.insertion >= 0)
+    const double half = 0.5 / static_cast<double>(spanSteps * std::max<std::size_t>(sweep.chain.size(), 1));
+    if (!sweep.chain.empty())
         beside = viewsOf(sweep, m, group.share + (group.share < 1 ? half : -half), swing);
     parallelFor(near.size(), [&](std::size_t v) {
         std::vector<Vec3> path;
@@ -248,8 +246,8 @@ void checkOptions(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>&
             if (list.size() != skin.vertices.size())
                 throw InputError("stray and shares of a skin need one value a vertex");
     }
-    if (!options.insertions.empty() && options.insertions.size() != muscles.size())
-        throw InputError("the search under a skin needs one insertion a muscle");
+    if (!options.chains.empty() && options.chains.size() != muscles.size())
+        throw InputError("the search under a skin needs one chain of bones a muscle");
     for (const BoneSwing& swing : options.swings)
         for (const std::vector<Pose>& station : swing)
             if (station.size() != muscles.size())
@@ -285,7 +283,8 @@ SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscl
         near.emplace_back(skin.vertices.size(), thickness + options.travel);
         for (std::size_t v = 0; v < near[m].size() && !options.stray.empty(); ++v)
             near[m][v] += options.stray[m][v];
-        sweeps.push_back(makeSweep(muscles[m], options.insertions.empty() ? -1 : options.insertions[m],
+        sweeps.push_back(makeSweep(muscles[m],
+                                   options.chains.empty() ? std::vector<int>() : options.chains[m],
                                    skin.vertices.size()));
         searchRange(sweeps[m], *muscles[m].deformer, skin, options.path, near[m]);
     }

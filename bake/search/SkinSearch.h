@@ -27,9 +27,9 @@ struct SkinSearchOptions {
                ///< that muscle, scene units; empty: not at all
     std::vector<std::vector<double>>
         shares; ///< #muscles of #V in [0, 1]: of a bone's motion that a vertex makes; empty: none
-    std::vector<BoneSwing> swings; ///< of the bones that the muscles ride on
-    std::vector<int> insertions;   ///< #muscles: of one between two bones a muscle that moves with the other
-                                   ///< bone, else -1; empty: none
+    std::vector<BoneSwing> swings;        ///< of the bones that the muscles ride on
+    std::vector<std::vector<int>> chains; ///< #muscles: of one over several bones muscles that move with
+                                          ///< those behind the first, else none; empty: none for all
 };
 
 /// Radius of the skin spheres where nothing else is said: half the mean edge.
@@ -42,8 +42,8 @@ double skinThickness(const TriangleMesh& skin);
 ///   Muscles: spheres move as their MuscleTrack, linear between its nodes, as at run time; each stretch is
 ///   tested as the capsule that the sphere sweeps.
 ///   Bones: they move along the swings, and nothing is known of what they meet elsewhere. A vertex moves with
-///   the blend of their motions by its shares; between two stations of a swing it may be off the straight line by a tenth of
-///   their distance.
+///   the blend of their motions by its shares; between two stations of a swing it may be off the straight
+///   line by a tenth of their distance.
 /// The table's restGaps are the negative gaps of pairs that overlap at activation 0 (METHOD 2.4). The same
 /// table for any number of threads. Throws InputError where progress stops it.
 SkinTable searchSkin(const TriangleMesh& skin, const std::vector<SkinSearchMuscle>& muscles,

@@ -2,6 +2,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/FramePattern.h"
 #include "bake/model/SourceHash.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"

@@ -4,6 +4,7 @@
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleFibre.h"
 #include "bake/motion/MuscleVolume.h"
 #include "bake/pipeline/BakeOptions.h"
@@ -145,10 +146,19 @@ private:
         if (model.muscle.form == MuscleForm::Ring)
             return console_.say(fmt::format("{}: a ring of {} points from {} round, narrows by {:.3g}", name,
                                             fibre.size(), point(fibre.front()), model.muscle.maxContraction));
-        console_.say(fmt::format("{}: a {} of {} points from {}{} to {}{}, shortens by {:.3g} of its length",
+        console_.say(fmt::format("{}: a {} of {} points from {}{} to {}{}{}, shortens by {:.3g} of its "
+                                 "length",
                                  name, model.muscle.form == MuscleForm::Sheet ? "sheet" : "tube",
                                  fibre.size(), point(fibre.front()), onBone(model.bone), point(fibre.back()),
-                                 onBone(model.insertionBone), model.muscle.maxContraction));
+                                 onBone(model.insertionBone), past(model), model.muscle.maxContraction));
+    }
+
+    /// The bones that a muscle passes between its own two.
+    std::string past(const MuscleModel& model) const {
+        std::vector<std::string> names;
+        for (const int bone : muscleChain(scene_, model))
+            if (bone != model.insertionBone) names.push_back(robot_.links[bone].name);
+        return names.empty() ? "" : fmt::format(" past {}", fmt::join(names, ", "));
     }
 
     /// A muscle keeps its volume, and so needs one.
@@ -185,11 +195,13 @@ private:
                 if (const double distance = query.distance(toBone * vertices[v]); distance < nearest[v])
                     nearest[v] = distance, nearestBone[v] = k;
         }
-        const std::vector<int> roots = rigidRoots(scene_);
+        const std::vector<int> roots = rigidRoots(scene_), chain = muscleChain(scene_, model);
         for (int k = 0; k < static_cast<int>(robot_.links.size()); ++k) {
             const double percent = 100 * static_cast<double>(std::ranges::count(nearestBone, k)) /
                                    static_cast<double>(vertices.size());
-            if (roots[k] == roots[model.bone] || k == model.insertionBone || !(percent > most)) continue;
+            const bool own = roots[k] == roots[model.bone] ||
+                             std::ranges::any_of(chain, [&](int c) { return roots[k] == roots[c]; });
+            if (own || !(percent > most)) continue;
             const std::string &bone = robot_.links[k].name, &from = robot_.links[model.bone].name;
             if (model.insertionBone < 0)
                 note(

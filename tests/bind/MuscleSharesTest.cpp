@@ -47,8 +47,8 @@ int turnedOver(const MuscleDeformer& muscle, const std::vector<Vec3>& now, const
     int count = 0;
     for (const Tri& t : rest.triangles) {
         double share = 0;
-        for (const int v : t) share += muscle.insertionShares()[v] / 3;
-        const Pose here = blendBetween(Pose::Identity(), far, share);
+        for (const int v : t) share += muscle.chainShares()[v] / 3;
+        const Pose here = ChainBlend({far}, {}).at(share);
         count += normal(now, t).dot(here.linear() * normal(rest.vertices, t)) < 0;
     }
     return count;
@@ -60,8 +60,8 @@ TEST_CASE("a muscle's ends are their bones' however short it is against them") {
     for (const double length : {25.0, 12.0, 6.0}) {
         INFO("length " << length << " between bones of 200");
         const Muscle muscle = flexorOf(length);
-        const std::vector<double> shares =
-            insertionShares(muscle.surface, boneAt(-200, -length / 6), boneAt(length / 6, 200), muscle.form);
+        const std::vector<double> shares = chainShares(
+            muscle.surface, std::vector{boneAt(-200, -length / 6), boneAt(length / 6, 200)}, muscle.form);
         CHECK(shares.front() < 1e-3);
         CHECK(shares.back() > 1 - 1e-3);
     }
@@ -84,7 +84,7 @@ TEST_CASE("each half of a ring is its bone's however short it is against the two
         INFO("a ring of radius 1 before bones of " << length);
         const TriangleMesh upper = boxMesh({-1.2, 0.2, 0.1}, {1.2, length, 1.2}),
                            lower = boxMesh({-1.2, 0.2, -1.2}, {1.2, length, -0.1});
-        const std::vector<double> shares = insertionShares(ring, upper, lower, MuscleForm::Ring);
+        const std::vector<double> shares = chainShares(ring, std::vector{upper, lower}, MuscleForm::Ring);
         for (std::size_t v = 0; v < shares.size(); ++v) {
             const double height = ring.vertices[v].z();
             if (std::abs(height) > 0.8) CHECK(shares[v] == Approx(height < 0).margin(0.02));
@@ -94,20 +94,20 @@ TEST_CASE("each half of a ring is its bone's however short it is against the two
 
 TEST_CASE("a muscle inside of a joint that closes turns nothing over and keeps its volume, active or not") {
     Muscle flexor = flexorOf(200);
-    const TriangleMesh upper = boneAt(-205, -5), lower = boneAt(5, 205);
-    std::vector<DualPose> far;
-    for (const double degrees : {32.0, 64.0, 96.0, 128.0}) far.emplace_back(closed(degrees, 20));
-    flexor.insertionShares = insertionShares(flexor.surface, upper, lower, flexor.form, far);
+    const std::vector<TriangleMesh> bones{boneAt(-205, -5), boneAt(5, 205)};
+    std::vector<std::vector<DualPose>> motions;
+    for (const double degrees : {32.0, 64.0, 96.0, 128.0}) motions.push_back({DualPose(closed(degrees, 20))});
+    flexor.chainShares = chainShares(flexor.surface, bones, flexor.form, motions);
     const MuscleDeformer muscle(flexor);
     const MuscleSpan span(muscle);
-    CHECK(muscle.insertionShares().front() < 0.01);
-    CHECK(muscle.insertionShares().back() > 0.99);
+    CHECK(muscle.chainShares().front() < 0.01);
+    CHECK(muscle.chainShares().back() > 0.99);
     for (const double activation : {0.0, 1.0}) {
         std::vector<Vec3> before = muscle.vertices(activation);
         for (double degrees = 1; degrees <= 120; ++degrees) {
             INFO("activation " << activation << ", " << degrees << " degrees");
             std::vector<Vec3> now = muscle.vertices(activation);
-            span.carry(closed(degrees, 20), now);
+            span.carry({closed(degrees, 20)}, now);
             CHECK(enclosedVolume(now, flexor.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
             CHECK(turnedOver(muscle, now, closed(degrees, 20)) == 0);
             double most = 0;
@@ -128,16 +128,17 @@ TEST_CASE("a muscle over the outside of a joint stays on its bone beside it, and
     shape.rings = 60;
     Muscle extensor = test::bentEllipsoid(shape);
     extensor.spans = true;
-    std::vector<DualPose> far;
-    for (const double degrees : {-32.0, -64.0, -96.0, -128.0}) far.emplace_back(closed(degrees, 20));
-    extensor.insertionShares =
-        insertionShares(extensor.surface, boneAt(-205, -5), boneAt(5, 205), extensor.form, far);
+    const std::vector<TriangleMesh> bones{boneAt(-205, -5), boneAt(5, 205)};
+    std::vector<std::vector<DualPose>> motions;
+    for (const double degrees : {-32.0, -64.0, -96.0, -128.0})
+        motions.push_back({DualPose(closed(degrees, 20))});
+    extensor.chainShares = chainShares(extensor.surface, bones, extensor.form, motions);
     const MuscleDeformer muscle(extensor);
     const MuscleSpan span(muscle);
     for (const double degrees : {-60.0, -90.0, -128.0}) {
         INFO(degrees << " degrees");
         std::vector<Vec3> now = muscle.vertices(0.0);
-        span.carry(closed(degrees, 20), now);
+        span.carry({closed(degrees, 20)}, now);
         CHECK(enclosedVolume(now, extensor.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
         CHECK(turnedOver(muscle, now, closed(degrees, 20)) == 0);
         double away = 0; // from the bone, on average: what makes it thinner moves either side alike

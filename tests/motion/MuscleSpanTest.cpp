@@ -51,7 +51,7 @@ TEST_CASE("a muscle between two bones keeps its volume, at every activation and 
                          hinge(-60 + 120 * unit(random)) *
                          Eigen::AngleAxisd(unit(random) - 0.5, Vec3::UnitX());
         std::vector<Vec3> places = muscle.vertices(unit(random));
-        const double swell = span.carry(far, places);
+        const double swell = span.carry({far}, places);
         CHECK(enclosedVolume(places, muscle.muscle().surface.triangles) ==
               Approx(muscle.restVolume()).epsilon(1e-9));
         CHECK(std::abs(swell) < 1);
@@ -64,7 +64,7 @@ TEST_CASE("a muscle between two bones keeps its volume with its openings closed"
     const MuscleDeformer muscle(std::move(own));
     REQUIRE(muscle.closedTriangles().size() > muscle.muscle().surface.triangles.size());
     std::vector<Vec3> places = muscle.vertices(1.0);
-    MuscleSpan(muscle).carry(hinge(50), places);
+    MuscleSpan(muscle).carry({hinge(50)}, places);
     CHECK(enclosedVolume(places, muscle.closedTriangles()) == Approx(muscle.restVolume()).epsilon(1e-9));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("a coarse or rough muscle between two bones keeps its volume as a fine
         for (const double degrees : {-60, -20, 30, 90}) {
             CAPTURE(degrees);
             std::vector<Vec3> places = muscle.vertices(0);
-            span.carry(hinge(degrees), places);
+            span.carry({hinge(degrees)}, places);
             CHECK(enclosedVolume(places, muscle.muscle().surface.triangles) ==
                   Approx(muscle.restVolume()).epsilon(1e-9));
         }
@@ -92,10 +92,10 @@ TEST_CASE("its ends go with their bones, and nothing moves while these do not") 
     const MuscleSpan span(muscle);
     const std::vector<Vec3> rest = muscle.vertices(0.4);
     std::vector<Vec3> places = rest;
-    CHECK(span.carry(Pose::Identity(), places) == 0);
+    CHECK(span.carry({Pose::Identity()}, places) == 0);
     CHECK(places == rest);
     const Pose far = hinge(50);
-    span.carry(far, places);
+    span.carry({far}, places);
     int first = 0, last = 0;
     double farthest = 0;
     for (std::size_t v = 0; v < rest.size(); ++v) {
@@ -141,7 +141,7 @@ TEST_CASE("pushed together until it folds, a muscle loses volume little by littl
     const MuscleSpan span(muscle);
     const auto at = [&](double together) {
         std::vector<Vec3> places = muscle.vertices(0.0);
-        const double swell = span.carry(Pose(Eigen::Translation3d(-together, 0, 0)), places);
+        const double swell = span.carry({Pose(Eigen::Translation3d(-together, 0, 0))}, places);
         CHECK(swell >= 0);
         CHECK(swell <= 2);
         return places;
@@ -160,13 +160,13 @@ TEST_CASE("pushed together until it folds, a muscle loses volume little by littl
 
 TEST_CASE("a muscle that its bones turn by more than half a turn goes on the way round that it is told") {
     Muscle own = betweenBones().muscle();
-    own.side = {0, std::sin(55 * pi / 180), 0, std::cos(55 * pi / 180)}; // of 110 degrees
+    own.sides = {{0, std::sin(55 * pi / 180), 0, std::cos(55 * pi / 180)}}; // of 110 degrees
     const MuscleDeformer muscle(std::move(own));
     const MuscleSpan span(muscle);
     std::vector<Vec3> before = muscle.vertices(0.0);
     for (double degrees = 1; degrees < 220; ++degrees) {
         std::vector<Vec3> now = muscle.vertices(0.0);
-        span.carry(hinge(degrees), now);
+        span.carry({hinge(degrees)}, now);
         double most = 0;
         for (std::size_t v = 0; v < now.size(); ++v) most = std::max(most, (now[v] - before[v]).norm());
         INFO(degrees << " degrees");
@@ -182,7 +182,7 @@ TEST_CASE("its normals are those of its surface as it is bent") {
         TriangleMesh mesh = muscle.muscle().surface;
         std::vector<Vec3> normals = vertexNormals(mesh);
         const std::vector<Vec3> before = normals;
-        const double swell = span.carry(hinge(degrees), mesh.vertices, normals);
+        const double swell = span.carry({hinge(degrees)}, mesh.vertices, normals);
         INFO(degrees << " degrees, swell " << swell);
         const std::vector<Vec3> now = vertexNormals(mesh);
         double mean = 0, unbent = 0;
@@ -221,13 +221,13 @@ TEST_CASE("a ring between two bones is split where its line says") {
     for (int k = 0; k < 12; ++k)
         ring.fibre.emplace_back(std::sin(2 * pi * k / 12), 0, std::cos(2 * pi * k / 12)); // first on top
     const MuscleDeformer muscle(ring);
-    CHECK(muscle.insertionShare({0, 0, 1}) == Approx(0).margin(0.01));
-    CHECK(muscle.insertionShare({0, 0, -1}) == Approx(1).margin(0.01));
-    CHECK(muscle.insertionShare({1, 0, 0}) == Approx(0.5).margin(0.02));
+    CHECK(muscle.chainShare({0, 0, 1}) == Approx(0).margin(0.01));
+    CHECK(muscle.chainShare({0, 0, -1}) == Approx(1).margin(0.01));
+    CHECK(muscle.chainShare({1, 0, 0}) == Approx(0.5).margin(0.02));
     const MuscleSpan span(muscle);
     std::vector<Vec3> places = muscle.vertices(0.0);
     const Pose down = Pose(Eigen::Translation3d(0, 0, -0.5)); // a mouth that opens
-    span.carry(down, places);
+    span.carry({down}, places);
     CHECK(enclosedVolume(places, ring.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
     const Eigen::AlignedBox3d box = bounds({places, ring.surface.triangles});
     CHECK(box.max().z() == Approx(1.15).margin(0.05));
@@ -243,11 +243,11 @@ TEST_CASE("a flat muscle that is drawn together across its line swells to its si
     flat.spans = true;
     for (const Vec3& v : flat.surface.vertices) {
         const double t = std::clamp((v.y() + 1) / 2, 0.0, 1.0);
-        flat.insertionShares.push_back(t * t * (3 - 2 * t));
+        flat.chainShares.push_back(t * t * (3 - 2 * t));
     }
     const MuscleDeformer muscle(flat);
     std::vector<Vec3> places = muscle.vertices(0.0);
-    MuscleSpan(muscle).carry(Pose(Eigen::Translation3d(0, -1, 0)), places);
+    MuscleSpan(muscle).carry({Pose(Eigen::Translation3d(0, -1, 0))}, places);
     CHECK(enclosedVolume(places, flat.surface.triangles) == Approx(muscle.restVolume()).epsilon(1e-9));
     for (const Tri& t : flat.surface.triangles) {
         const auto normal = [&](const std::vector<Vec3>& x) {

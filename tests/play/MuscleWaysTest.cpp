@@ -2,7 +2,9 @@
 
 #include "bake/model/AddPair.h"
 #include "bake/model/Kinematics.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleSpan.h"
+#include "bake/motion/MuscleVolume.h"
 #include "bake/play/SkinSetup.h"
 #include "tests/BentEllipsoid.h"
 #include "tests/Joints.h"
@@ -50,6 +52,11 @@ SceneModel overTwoJoints(double lower, double upper) {
     return scene;
 }
 
+ChainMotion motionAt(const SceneModel& scene, const std::vector<double>& values) {
+    const MuscleModel& muscle = scene.muscles[0];
+    return muscleMotion(scene, muscle, muscleChain(scene, muscle), posedBodies(scene, values));
+}
+
 } // namespace
 
 TEST_CASE("a muscle over two joints goes on where they turn its bones by more than half a turn together") {
@@ -57,9 +64,7 @@ TEST_CASE("a muscle over two joints goes on where they turn its bones by more th
     CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
     const MuscleDeformer muscle(muscleOf(scene, scene.muscles[0]));
     const auto at = [&](double angle) {
-        return MuscleShape(muscle).vertices(
-            0.5,
-            insertionMotion(scene, scene.muscles[0], posedBodies(scene, std::vector<double>{angle, angle})));
+        return MuscleShape(muscle).vertices(0.5, motionAt(scene, {angle, angle}));
     };
     std::vector<Vec3> before = at(0);
     for (double angle = 1; angle <= 110; ++angle) {
@@ -83,7 +88,7 @@ TEST_CASE("a muscle follows the bone that it lies on where that never moves agai
         const Muscle muscle = muscleOf(of, of.muscles[0]);
         double most = 0;
         for (std::size_t v = 0; v < muscle.surface.vertices.size(); ++v)
-            if (muscle.surface.vertices[v].x() < until) most = std::max(most, muscle.insertionShares[v]);
+            if (muscle.surface.vertices[v].x() < until) most = std::max(most, muscle.chainShares[v]);
         return most;
     };
     CHECK(largest(scene, -20) == Approx(largest(whole, -20)).epsilon(1e-3));
@@ -93,10 +98,37 @@ TEST_CASE("a muscle follows the bone that it lies on where that never moves agai
     CHECK(largest(scene, -20) > 1.2 * largest(whole, -20));
 }
 
+TEST_CASE("a muscle stays beside each bone that it passes, and keeps its volume") {
+    const SceneModel scene = overTwoJoints(0, 100 * degree);
+    CHECK(muscleChain(scene, scene.muscles[0]) == std::vector<int>{1, 2});
+    const MuscleDeformer muscle(muscleOf(scene, scene.muscles[0]));
+    const std::vector<Vec3>& rest = muscle.muscle().surface.vertices;
+    for (const std::vector<double>& values : {std::vector<double>{0, 90}, {90, 0}, {60, 60}, {100, 100}}) {
+        CAPTURE(values[0], values[1]);
+        const std::vector<double> angles{values[0] * degree, values[1] * degree};
+        const ChainMotion moved = motionAt(scene, angles);
+        const std::vector<Vec3> now = MuscleShape(muscle).vertices(0, moved);
+        CHECK(enclosedVolume(now, muscle.closedTriangles()) == Approx(muscle.restVolume()).epsilon(1e-6));
+        // Over the middle of the bone that it passes, and at both ends, it goes with what is below it.
+        Vec3 off[3] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        int count[3] = {0, 0, 0};
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const double x = rest[v].x();
+            const int at = x < -70 ? 0 : x > 70 ? 2 : std::abs(x) < 10 ? 1 : -1;
+            if (at < 0) continue;
+            const Pose bone = at == 0 ? Pose::Identity() : moved[static_cast<std::size_t>(at - 1)];
+            off[at] += now[v] - bone * rest[v];
+            ++count[at];
+        }
+        for (int at = 0; at < 3; ++at) CHECK((off[at] / count[at]).norm() < 3);
+    }
+}
+
 TEST_CASE("where joints turn a muscle by more than half a turn either way it is said to be unclear") {
     SceneModel scene = overTwoJoints(-110 * degree, 110 * degree);
     CHECK(muscleWays(scene, scene.muscles[0]).unclear);
     scene = overTwoJoints(-80 * degree, 80 * degree);
     CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
-    CHECK(muscleWays(scene, scene.muscles[0]).side == Eigen::Vector4d(0, 0, 0, 1));
+    for (const Eigen::Vector4d& side : muscleWays(scene, scene.muscles[0]).sides)
+        CHECK(side == Eigen::Vector4d(0, 0, 0, 1));
 }

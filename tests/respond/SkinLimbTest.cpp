@@ -73,10 +73,10 @@ struct FleshyLimb {
     }
 
     explicit FleshyLimb(double limit) {
-        std::vector<DualPose> far;
-        for (int k = 1; k <= 4; ++k) far.emplace_back(bent(limit * k / 4));
+        std::vector<std::vector<DualPose>> motions;
+        for (int k = 1; k <= 4; ++k) motions.push_back({DualPose(bent(limit * k / 4))});
         parameters.frames = {0, 1};
-        parameters.insertions = {-1, -1};
+        parameters.chains = {{}, {}};
         for (const double side : {-0.06, 0.06})
             for (const double beside : {-0.02, 0.02}) {
                 Muscle muscle;
@@ -85,11 +85,11 @@ struct FleshyLimb {
                 muscle.fibre = {{-0.9, beside, side}, {0.2, beside, side}};
                 muscle.maxContraction = 0.2;
                 muscle.spans = true;
-                muscle.insertionShares = insertionShares(muscle.surface, bodies[0]->muscle().surface,
-                                                         bodies[1]->muscle().surface, muscle.form, far);
+                const std::vector bones{bodies[0]->muscle().surface, bodies[1]->muscle().surface};
+                muscle.chainShares = chainShares(muscle.surface, bones, muscle.form, motions);
                 bodies.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
                 parameters.frames.push_back(0);
-                parameters.insertions.push_back(1);
+                parameters.chains.push_back({1});
             }
         BoneSwing swing;
         for (int k = 1; k <= 16; ++k) swing.push_back(posesAt(limit * k / 16));
@@ -100,7 +100,7 @@ struct FleshyLimb {
         SkinSearchOptions options;
         options.travel = 0.02;
         options.swings = parameters.swings;
-        options.insertions = parameters.insertions;
+        options.chains = parameters.chains;
         SkinMoves moves = skinMoves(skin, bodies, parameters);
         options.stray = std::move(moves.stray);
         options.shares = std::move(moves.shares);
@@ -122,7 +122,7 @@ struct FleshyLimb {
         const TriangleMesh now{skins::places({skin, {}, {}}, response), skin.triangles};
         for (std::size_t m = 2; m < bodies.size(); ++m)
             for (const double depth :
-                 skins::poking(MuscleShape(*bodies[m]).vertices(0, bent(degrees)), now, 1))
+                 skins::poking(MuscleShape(*bodies[m]).vertices(0, {bent(degrees)}), now, 1))
                 all.push_back(depth);
         return all;
     }

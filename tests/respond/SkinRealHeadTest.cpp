@@ -112,7 +112,7 @@ TEST_CASE(
     Jaw jaw = realJaw();
     SkinParameters parameters;
     parameters.frames = {0, 1};
-    parameters.insertions = {-1, -1};
+    parameters.chains = {{}, {}};
     for (const char* name : {"masseter_L", "masseter_R", "temporalis_L", "temporalis_R", "orbicularis_oris_L",
                              "orbicularis_oris_R"}) {
         Muscle muscle;
@@ -124,13 +124,14 @@ TEST_CASE(
         } else {
             muscle.fibre = fibreLine(muscle.surface);
         }
-        std::vector<DualPose> far;
-        for (const double degrees : {7.0, 14.0, -9.0, -18.0}) far.emplace_back(jaw.swung(degrees * degree));
-        muscle.insertionShares = insertionShares(muscle.surface, jaw.bones[0]->muscle().surface,
-                                                 jaw.bones[1]->muscle().surface, muscle.form, far);
+        std::vector<std::vector<DualPose>> motions;
+        for (const double degrees : {7.0, 14.0, -9.0, -18.0})
+            motions.push_back({DualPose(jaw.swung(degrees * degree))});
+        const std::vector bones{jaw.bones[0]->muscle().surface, jaw.bones[1]->muscle().surface};
+        muscle.chainShares = chainShares(muscle.surface, bones, muscle.form, motions);
         jaw.bones.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
         parameters.frames.push_back(0);
-        parameters.insertions.push_back(1);
+        parameters.chains.push_back({1});
     }
     const auto posesAt = [&](double degrees) {
         std::vector<Pose> poses(jaw.bones.size(), Pose::Identity());

@@ -8,6 +8,7 @@
 #include <osgTSS/Overlay>
 
 #include "bake/geometry/PartSet.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleDeformer.h"
 #include "bake/play/SkinSetup.h"
 

@@ -9,6 +9,7 @@
 #include "osgTSS/src/extract/SoftTags.h"
 
 #include "bake/model/SourceHash.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/scene/SceneLayer.h"
 
 #include <osg/Notify>

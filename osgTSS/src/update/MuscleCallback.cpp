@@ -6,6 +6,7 @@
 #include "osgTSS/src/extract/SoftTags.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleSpan.h"
 
 #include <osg/NodeVisitor>
@@ -14,6 +15,7 @@
 #include <osgTSS/MuscleCallback>
 #include <osgTSS/SkinGeometry>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -49,9 +51,12 @@ struct Asked {
 /// A muscle as one drawable shows it.
 struct Shown {
     osg::observer_ptr<SkinGeometry> geometry;
-    BodyFrame frame;                               ///< of the surface
-    osg::observer_ptr<osg::Node> insertion;        ///< its bone; may be null
-    tss::Pose restInverse = tss::Pose::Identity(); ///< surface to that bone, at rest
+    BodyFrame frame; ///< of the surface
+    struct Bone {
+        osg::observer_ptr<osg::Node> node;
+        tss::Pose restInverse; ///< surface to the bone, at rest
+    };
+    std::vector<Bone> bones; ///< of a muscle over several those behind the first
     std::optional<tss::MuscleSpan> span;
     std::shared_ptr<const tss::SceneModel> model;
     int muscle;
@@ -61,7 +66,7 @@ struct Shown {
     double activation = std::numeric_limits<double>::quiet_NaN();
     Asked asked;
 
-    tss::Pose far = tss::Pose::Identity(); ///< of the insertion's bone since rest, in the surface's frame
+    tss::ChainMotion moved; ///< of the bones, in the surface's frame
 
     Shown(osg::Node& node, const Scene& scene, const std::string& path)
         : geometry(dynamic_cast<SkinGeometry*>(&node)), model(scene.shareModel()),
@@ -87,27 +92,38 @@ struct Shown {
         if (!frame.node.valid()) return;
         geometry = nodes.shape(body.path);
         if (!geometry.valid() || own.insertionBone < 0) return;
-        const tss::Body& bone = model->bodies[own.insertionBone];
-        insertion = nodes.frame(bone.path).node;
-        if (!insertion.valid()) return;
-        restInverse = bone.placement.inverse(Eigen::Isometry) * body.placement;
+        for (const int index : tss::muscleChain(*model, own)) {
+            const tss::Body& bone = model->bodies[index];
+            bones.push_back(
+                {nodes.frame(bone.path).node, bone.placement.inverse(Eigen::Isometry) * body.placement});
+            if (!bones.back().node.valid()) return;
+        }
+        moved.resize(bones.size(), tss::Pose::Identity());
         span.emplace(*deformer);
+    }
+
+    /// Finds where the bones are. One that was taken out of the graph stays where it was.
+    tss::ChainMotion findBones(osg::Node& owner) const {
+        tss::ChainMotion now = moved;
+        const auto from = span && frame.node.valid() ? toAbove(owner, *frame.node) : std::nullopt;
+        for (std::size_t k = 0; from && k < bones.size(); ++k) {
+            const auto fromBone = bones[k].node.valid() ? toAbove(owner, *bones[k].node) : std::nullopt;
+            if (fromBone)
+                now[k] =
+                    carriedSince(*fromBone, osg::Matrixd::inverse(*from), frame.scale, bones[k].restInverse);
+        }
+        return now;
     }
 
     /// Whether it looks otherwise than in the last update.
     bool change(osg::Node& owner, double now) {
-        tss::Pose moved = tss::Pose::Identity();
-        if (span && frame.node.valid() && insertion.valid()) {
-            const auto fromBone = toAbove(owner, *insertion), from = toAbove(owner, *frame.node);
-            moved = fromBone && from
-                        ? carriedSince(*fromBone, osg::Matrixd::inverse(*from), frame.scale, restInverse)
-                        : far;
-        }
-        if (now == activation && moved.matrix() == far.matrix()) return false;
+        tss::ChainMotion found = findBones(owner);
+        const auto same = [](const tss::Pose& a, const tss::Pose& b) { return a.matrix() == b.matrix(); };
+        if (now == activation && std::ranges::equal(found, moved, same)) return false;
         activation = now;
-        far = moved;
+        moved = std::move(found);
         mesh.vertices = deformer->vertices(activation);
-        if (span) span->carry(far, mesh.vertices);
+        if (span) span->carry(moved, mesh.vertices);
         return true;
     }
 };

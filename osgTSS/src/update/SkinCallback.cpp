@@ -5,6 +5,7 @@
 #include "osgTSS/src/extract/SoftParts.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/UnderSkin.h"
 #include "bake/respond/SkinResponse.h"
 
 #include <osg/NodeVisitor>
