@@ -1,6 +1,8 @@
 #include "Heard.h"
 #include "Limb.h"
 
+#include "bake/model/UnderSkin.h"
+
 #include <catch2/catch.hpp>
 #include <osgAnimation/MorphGeometry>
 #include <osgDB/ReaderWriter>
@@ -154,6 +156,45 @@ TEST_CASE("A muscle that goes to another bone is drawn from the one to the other
     other.root->accept(visitor);
     CHECK(visitor.getModel().muscles.empty());
     CHECK(heard.times("no node that is tagged as a bone is called \"Radius\"") == 1);
+}
+
+TEST_CASE("A muscle that passes a bone is drawn beside it, whichever of its joints moves") {
+    Limb limb;
+    osg::ref_ptr<osgSim::DOFTransform> wrist =
+        static_cast<osgSim::DOFTransform*>(limb.hinge->clone(osg::CopyOp::SHALLOW_COPY));
+    wrist->setName("Wrist");
+    wrist->removeChildren(0, wrist->getNumChildren());
+    const osg::Matrixd at = osg::Matrixd::translate(4, 0, 0);
+    wrist->setPutMatrix(osg::Matrixd::inverse(at));
+    wrist->setInversePutMatrix(at);
+    osg::ref_ptr<osg::Geode> hand = new osg::Geode;
+    hand->setName("Hand");
+    hand->addDrawable(Limb::tube(4.1f, 5.8f, 9, 8, 0.15f, false));
+    hand->setUserValue("osgTSS:bone", true);
+    wrist->addChild(hand);
+    limb.hinge->addChild(wrist);
+    const osg::ref_ptr<osg::Geometry> belly = Limb::tube(0.4f, 5.6f, 53, 12, 0.0f, false);
+    belly->setName("Flexor");
+    belly->setUserValue("osgTSS:muscle", std::string("contract=0.2 to=Hand"));
+    limb.muscleGeode->setDrawable(0, belly);
+    Played played(limb);
+    const tss::SceneModel& model = played.scene->getModel();
+    REQUIRE(model.muscles.size() == 1);
+    CHECK(tss::muscleChain(model, model.muscles[0]).size() == 2);
+    limb.bend(60);
+    played.frame();
+    const auto* shown = dynamic_cast<const SkinGeometry*>(limb.muscleGeode->getDrawable(0));
+    REQUIRE(shown);
+    const osg::Vec3Array &now = *shown->getVertices(), &rest = verticesOf(*belly);
+    osg::Vec3 off[2]; // over the middle of the first bone and of the second, as these have moved
+    int count[2] = {0, 0};
+    for (std::size_t v = 0; v < rest.size(); ++v) {
+        const int bone = std::abs(rest[v].x() - 1) < 0.2f ? 0 : std::abs(rest[v].x() - 3) < 0.2f ? 1 : -1;
+        if (bone < 0) continue;
+        off[bone] += now[v] - (bone == 0 ? rest[v] : turned(limb, rest[v]));
+        ++count[bone];
+    }
+    for (int bone = 0; bone < 2; ++bone) CHECK((off[bone] / float(count[bone])).length() < 0.05);
 }
 
 TEST_CASE("Samples in the file move a muscle without any application") {

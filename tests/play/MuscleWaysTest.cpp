@@ -98,6 +98,33 @@ TEST_CASE("a muscle follows the bone that it lies on where that never moves agai
     CHECK(largest(scene, -20) > 1.2 * largest(whole, -20));
 }
 
+TEST_CASE("of the bones that joints pass those count that move by themselves and have a mesh") {
+    const SceneModel scene = overTwoJoints(0, 100 * degree);
+    const auto chainOf = [](const SceneModel& of) { return muscleChain(of, of.muscles[0]); };
+    CHECK(chainOf(scene) == std::vector<int>{1, 2});
+    SceneModel other = scene;
+    std::swap(other.muscles[0].bone, other.muscles[0].insertionBone);
+    CHECK(chainOf(other) == std::vector<int>{1, 0});
+    other = scene;
+    other.joints[0].dofs.clear(); // moves as the first bone
+    CHECK(chainOf(other) == std::vector<int>{2});
+    other = scene;
+    other.joints[1].dofs.clear(); // as the last
+    CHECK(chainOf(other) == std::vector<int>{2});
+    other = scene;
+    other.bodies[1].mesh = {};
+    CHECK(chainOf(other) == std::vector<int>{2});
+    other = scene;
+    other.bodies[2].mesh = {}; // the fibre tells how it goes from end to end
+    CHECK(chainOf(other) == std::vector<int>{2});
+    other = scene;
+    other.joints[0].enabled = false;
+    CHECK(chainOf(other) == std::vector<int>{2});
+    other = scene;
+    other.muscles[0].insertionBone = -1;
+    CHECK(chainOf(other).empty());
+}
+
 TEST_CASE("a muscle stays beside each bone that it passes, and keeps its volume") {
     const SceneModel scene = overTwoJoints(0, 100 * degree);
     CHECK(muscleChain(scene, scene.muscles[0]) == std::vector<int>{1, 2});

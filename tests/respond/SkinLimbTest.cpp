@@ -159,6 +159,55 @@ TEST_CASE("contact in a limb of overlapping muscles bent far is no worse than no
     }
 }
 
+TEST_CASE("skin and a muscle that passes a bone go with that bone where they lie beside it") {
+    const TriangleMesh skin = round(0.12, -1.6, 1.6, 120);
+    std::vector<std::shared_ptr<const MuscleDeformer>> bodies{boneOf(round(0.03, -1.55, -0.53, 30)),
+                                                              boneOf(round(0.03, -0.47, 0.47, 30)),
+                                                              boneOf(round(0.03, 0.53, 1.55, 30))};
+    const auto bent = [](double at, double degrees) {
+        return Pose(Eigen::Translation3d(at, 0, 0) * Eigen::AngleAxisd(degrees * degree, Vec3::UnitY()) *
+                    Eigen::Translation3d(-at, 0, 0));
+    };
+    const auto posesAt = [&](double first, double second) {
+        const Pose middle = bent(-0.5, first), last = middle * bent(0.5, second);
+        return std::vector<Pose>{Pose::Identity(), middle, last, Pose::Identity()};
+    };
+    Muscle muscle;
+    muscle.surface = round(0.03, -0.9, 0.9, 90);
+    for (Vec3& v : muscle.surface.vertices) v.z() += 0.07;
+    muscle.fibre = {{-0.9, 0, 0.07}, {0.9, 0, 0.07}};
+    muscle.spans = true;
+    SkinParameters parameters;
+    std::vector<std::vector<DualPose>> motions;
+    for (const auto& [first, second] : {std::pair(100.0, 0.0), {0.0, 100.0}, {100.0, 100.0}}) {
+        BoneSwing swing;
+        for (int k = 1; k <= 16; ++k) swing.push_back(posesAt(first * k / 16, second * k / 16));
+        parameters.swings.push_back(swing);
+        motions.push_back({DualPose(swing.back()[1]), DualPose(swing.back()[2])});
+    }
+    std::vector<TriangleMesh> bones;
+    for (const auto& body : bodies) bones.push_back(body->muscle().surface);
+    muscle.chainShares = chainShares(muscle.surface, bones, muscle.form, motions);
+    bodies.push_back(std::make_shared<const MuscleDeformer>(std::move(muscle)));
+    parameters.frames = {0, 1, 2, 0};
+    parameters.chains = {{}, {}, {}, {1, 2}};
+    SkinTable nothingMet;
+    nothingMet.table.rowOffsets = {0};
+    SkinResponse response(makeSkinRig(skin, bodies, nothingMet, parameters));
+    for (const auto& [first, second] : {std::pair(0.0, 90.0), {90.0, 0.0}, {60.0, 60.0}}) {
+        CAPTURE(first, second);
+        const std::vector<Pose> poses = posesAt(first, second);
+        response.update(std::vector<double>(bodies.size(), 0), poses);
+        double off = 0; // of skin over the middle of the bone that the muscle passes
+        for (std::size_t k = 0; k < response.positions().size(); ++k) {
+            const Vec3& rest = response.rig().rest[k];
+            if (std::abs(rest.x()) < 0.25)
+                off = std::max(off, (response.positions()[k] - poses[1] * rest).norm());
+        }
+        CHECK(off < 0.01);
+    }
+}
+
 TEST_CASE("a limb's skin follows the bone that it lies on and does not collapse where the limb bends") {
     constexpr int rings = 90;
     const TriangleMesh skin = round(0.12, -1.1, 1.1, rings);

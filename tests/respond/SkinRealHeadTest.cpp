@@ -152,7 +152,7 @@ TEST_CASE(
         double out = 0, volume = 0;
         for (std::size_t m = 2; m < jaw.bones.size(); ++m) {
             const MuscleDeformer& muscle = *jaw.bones[m];
-            const std::vector<Vec3> now = MuscleShape(muscle).vertices(0, poses[1]);
+            const std::vector<Vec3> now = MuscleShape(muscle).vertices(0, {poses[1]});
             volume = std::max(
                 volume,
                 std::abs(enclosedVolume(now, muscle.muscle().surface.triangles) / muscle.restVolume() - 1));
