@@ -147,14 +147,14 @@ TEST_CASE("a muscle stays beside each bone that it passes, and keeps its volume"
             off[at] += now[v] - bone * rest[v];
             ++count[at];
         }
-        for (int at = 0; at < 3; ++at) CHECK((off[at] / count[at]).norm() < 3);
+        for (int at = 0; at < 3; ++at) CHECK((off[at] / count[at]).norm() < 4.5);
     }
 }
 
-TEST_CASE("where joints turn a muscle by more than half a turn either way it is said to be unclear") {
-    SceneModel scene = overTwoJoints(-110 * degree, 110 * degree);
+TEST_CASE("where a joint turns a muscle by more than half a turn either way it is said to be unclear") {
+    SceneModel scene = overTwoJoints(-200 * degree, 200 * degree);
     CHECK(muscleWays(scene, scene.muscles[0]).unclear);
-    scene = overTwoJoints(-80 * degree, 80 * degree);
+    scene = overTwoJoints(-110 * degree, 110 * degree); // together farther, each by itself not
     CHECK_FALSE(muscleWays(scene, scene.muscles[0]).unclear);
     for (const Eigen::Vector4d& side : muscleWays(scene, scene.muscles[0]).sides)
         CHECK(side == Eigen::Vector4d(0, 0, 0, 1));
