@@ -172,7 +172,8 @@ TEST_CASE(
         CHECK(f.bones[1].most <= 4);
         // Shut all the way, molars push the lining of the mouth against each other.
         CHECK(f.turnedOver <= (degrees < -15 ? 4 : 0));
-        if (degrees >= -9) CHECK(out <= 0.05e-3); // else the rings are between the teeth
+        // Beyond, the rings are between the teeth. With at most 8 rounds of contact it was 0.060 at -15.
+        if (degrees >= -15) CHECK(out <= 0.05e-3);
     }
 }
 
