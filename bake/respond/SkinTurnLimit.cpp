@@ -32,34 +32,19 @@ float partLeft(const Edges& carried, const Edges& now, const Eigen::Vector3f& no
 
 } // namespace
 
-SkinTurnLimit::SkinTurnLimit(const SkinRig& rig)
-    : rig_(rig), visited_(rig.triangles.size(), 0), factors_(rig.foundation.nodes, 1) {
-    std::vector<std::vector<std::uint32_t>> triangles(rig.blocks());
-    for (std::uint32_t t = 0; t < rig.triangles.size(); ++t)
-        for (const int corner : rig.triangles[t]) {
-            std::vector<std::uint32_t>& ofBlock =
-                triangles[static_cast<std::size_t>(corner) / SkinRig::block];
-            if (ofBlock.empty() || ofBlock.back() != t) ofBlock.push_back(t);
-        }
-    blockTriangles_ = Lists<std::uint32_t>(triangles);
-}
+SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig), factors_(rig.foundation.nodes, 1) {}
 
 void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> blocks) {
-    ++pass_;
     beside_.clear();
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        if (blocks[b] == 0) continue;
-        for (const std::uint32_t t : blockTriangles_[b]) {
-            if (visited_[t] == pass_) continue;
-            visited_[t] = pass_;
-            const Tri& corners = rig_.triangles[t];
-            const Edges edges = edgesOf(scene.carried, corners);
-            Eigen::Vector3f outwards = Eigen::Vector3f::Zero();
-            for (const int corner : corners) outwards += scene.normalOf(static_cast<std::size_t>(corner));
-            const Eigen::Vector3f normal = outwards.normalized();
-            const float area = normal.dot(edges.first.cross(edges.second));
-            if (area > 0) beside_.push_back({t, normal, area});
-        }
+    const auto displaced = [&](int corner) { return blocks[corner / SkinRig::block] != 0; };
+    for (const Tri& corners : rig_.triangles) {
+        if (std::ranges::none_of(corners, displaced)) continue;
+        const Edges edges = edgesOf(scene.carried, corners);
+        Eigen::Vector3f outwards = Eigen::Vector3f::Zero();
+        for (const int corner : corners) outwards += scene.normalOf(static_cast<std::size_t>(corner));
+        const Eigen::Vector3f normal = outwards.normalized();
+        const float area = normal.dot(edges.first.cross(edges.second));
+        if (area > 0) beside_.push_back({corners, normal, area});
     }
 }
 
@@ -67,15 +52,14 @@ void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> 
 bool SkinTurnLimit::findFactors(const SkinScene& scene) {
     bool any = false;
     for (const Beside& beside : beside_) {
-        const Tri& corners = rig_.triangles[beside.triangle];
-        const Edges now = edgesOf(scene.skin, corners);
+        const Edges now = edgesOf(scene.skin, beside.corners);
         const float least = leastShare * beside.area;
         if (!(beside.normal.dot(now.first.cross(now.second)) < least)) continue;
         any = true;
         // Half as much again, so that neither rounding nor the triangles beside ask for it once more.
         const float part =
-            partLeft(edgesOf(scene.carried, corners), now, beside.normal, beside.area, 1.5f * least);
-        for (const int corner : corners)
+            partLeft(edgesOf(scene.carried, beside.corners), now, beside.normal, beside.area, 1.5f * least);
+        for (const int corner : beside.corners)
             for (const auto& [node, weight] : rig_.foundation.weights[static_cast<std::size_t>(corner)])
                 if (weight != 0) factors_[node] = std::min(factors_[node], part);
     }

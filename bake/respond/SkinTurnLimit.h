@@ -21,14 +21,11 @@ private:
 
     /// A triangle beside displaced skin that is not turned over as the skin is carried.
     struct Beside {
-        std::uint32_t triangle = 0;
+        Tri corners{0, 0, 0};
         Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, the mean of the skin's at its corners
         float area = 0;                                   ///< as carried, seen along the normal
     };
     const SkinRig& rig_;
-    Lists<std::uint32_t> blockTriangles_; ///< per block: triangles with a corner in it
-    std::vector<std::uint32_t> visited_;  ///< per triangle: the last pass over blocks that came to it
-    std::uint32_t pass_ = 0;
     std::vector<Beside> beside_;
     std::vector<float> factors_; ///< per node: of its displacement
 };
