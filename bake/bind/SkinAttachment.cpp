@@ -123,15 +123,9 @@ std::vector<std::vector<double>> frameShares(const SkinAnatomy& anatomy, const S
                                              const std::vector<int>& frames) {
     const int count = frames.empty() ? 0 : *std::max_element(frames.begin(), frames.end()) + 1;
     if (!p.shares.empty() || count == 0) return p.shares;
-    ShareOptions options{{}, p.tether};
-    for (const BoneSwing& swing : p.swings) {
-        if (swing.empty()) continue;
-        std::vector<DualPose>& motion = options.motions.emplace_back(static_cast<std::size_t>(count));
-        for (std::size_t m = 0; m < frames.size(); ++m)
-            if (frames[m] >= 0) motion[static_cast<std::size_t>(frames[m])] = DualPose(swing.back()[m]);
-    }
     std::vector<std::vector<double>> shares =
-        claimedShares(anatomy.skin, anatomy.graph, skinInfluences(anatomy, p, frames), options);
+        claimedShares(anatomy.skin, anatomy.graph, skinInfluences(anatomy, p, frames),
+                      {swingEnds(p, frames, static_cast<std::size_t>(count)), p.tether});
     shares.resize(static_cast<std::size_t>(count));
     return shares;
 }
@@ -196,6 +190,18 @@ std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& para
     int next = 0;
     for (const auto& body : anatomy.bodies) frames.push_back(body->rigid() ? next++ : -1);
     return frames;
+}
+
+std::vector<std::vector<DualPose>> swingEnds(const SkinParameters& parameters, const std::vector<int>& frames,
+                                             std::size_t count) {
+    std::vector<std::vector<DualPose>> ends;
+    for (const BoneSwing& swing : parameters.swings) {
+        if (swing.empty()) continue;
+        std::vector<DualPose>& motion = ends.emplace_back(count);
+        for (std::size_t m = 0; m < frames.size(); ++m)
+            if (frames[m] >= 0) motion[static_cast<std::size_t>(frames[m])] = DualPose(swing.back()[m]);
+    }
+    return ends;
 }
 
 SkinAttachment attachSkin(const SkinAnatomy& anatomy, const SkinParameters& p) {

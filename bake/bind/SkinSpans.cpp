@@ -28,7 +28,9 @@ public:
         parallelFor(own_[0].size(), [&](std::size_t v) { giveWay(v); });
         wanted_.pop_back();
         attachment_.frames = std::move(wanted_);
-        unfoldShares(anatomy_.skin, anatomy_.graph, anatomy_.length, foldingMotions(), attachment_.frames);
+        // A tether is in the shares already.
+        unfoldShares(anatomy_.skin, anatomy_.graph, anatomy_.length,
+                     {swingEnds(parameters_, frameOf_, still_), {}}, attachment_.frames);
     }
 
 private:
@@ -148,17 +150,6 @@ private:
         const double part = off > anatomy_.length ? 1 - anatomy_.length / off : 0;
         for (std::size_t f = 0; f <= still_; ++f)
             wanted_[f][v] = std::clamp(own_[f][v] + part * (wanted_[f][v] - own_[f][v]), 0.0, 1.0);
-    }
-
-    ShareOptions foldingMotions() const {
-        ShareOptions options; // a tether is in the shares already
-        for (const BoneSwing& swing : parameters_.swings) {
-            if (swing.empty()) continue;
-            std::vector<DualPose>& motion = options.motions.emplace_back(still_);
-            for (std::size_t m = 0; m < frameOf_.size(); ++m)
-                if (frameOf_[m] >= 0) motion[frameOf_[m]] = DualPose(swing.back()[m]);
-        }
-        return options;
     }
 
     const SkinAnatomy& anatomy_;
