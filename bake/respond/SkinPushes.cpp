@@ -224,8 +224,10 @@ std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move>
     return pushing;
 }
 
-void SkinPushes::scale(std::span<const float> factors) {
-    for (const std::uint32_t n : moved_) nodes_[n] *= factors[n];
+void SkinPushes::moveNode(std::uint32_t node, const Move& move) {
+    nodes_[node] = move;
+    if (std::exchange(stamp_[node], round_) != round_)
+        moved_.insert(std::ranges::lower_bound(moved_, node), node);
 }
 
 void SkinPushes::displace(std::span<Move> places, std::span<char> blocks) const {

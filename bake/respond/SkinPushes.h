@@ -26,8 +26,11 @@ public:
     /// how many planes have a push.
     std::size_t apply(std::span<const SkinPlane> planes, std::span<Move> places, std::span<char> blocks);
 
-    /// Multiplies the displacement of each node that apply() has found by its factor.
-    void scale(std::span<const float> factors);
+    /// Displacement of a node, as apply() has found or moveNode() has set it.
+    Move nodeMove(std::uint32_t node) const {
+        return stamp_[node] == round_ ? nodes_[node] : Move(Move::Zero());
+    }
+    void moveNode(std::uint32_t node, const Move& move);
 
     /// Adds the displacements of the nodes to #touched positions, and marks their blocks.
     void displace(std::span<Move> places, std::span<char> blocks) const;
@@ -81,7 +84,7 @@ private:
     std::vector<float> sums_;
     std::vector<char> summed_;
     std::vector<Move> nodes_;          ///< displacements
-    std::vector<std::uint32_t> moved_; ///< nodes that apply() has displaced
+    std::vector<std::uint32_t> moved_; ///< nodes that are displaced, rising
 };
 
 } // namespace tss

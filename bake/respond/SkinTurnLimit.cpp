@@ -8,8 +8,9 @@ namespace {
 
 /// Of its area as carried, seen along the skin's normal, a triangle keeps this share at least.
 constexpr float leastShare = 0.02f;
-/// Making some displacements smaller may turn over a triangle beside them: most times that this is done.
-constexpr int mostRounds = 16;
+/// Changing some displacements may turn over a triangle beside them: most times that this is done, first by
+/// gathering, then by making them smaller.
+constexpr int mostGathering = 16, mostLowering = 16;
 
 struct Edges {
     Eigen::Vector3f first, second;
@@ -32,7 +33,7 @@ float partLeft(const Edges& carried, const Edges& now, const Eigen::Vector3f& no
 
 } // namespace
 
-SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig), factors_(rig.foundation.nodes, 1) {}
+SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {}
 
 void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> blocks) {
     beside_.clear();
@@ -48,38 +49,62 @@ void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> 
     }
 }
 
-/// Finds by how much displacements of nodes have to become smaller. Returns whether any has to.
-bool SkinTurnLimit::findFactors(const SkinScene& scene) {
-    bool any = false;
+/// What the nodes of triangles that are turned over have to do. gathers: to come nearer to the displacements
+/// beside them, the larger the more; else to none.
+void SkinTurnLimit::findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers) {
+    wishes_.clear();
     for (const Beside& beside : beside_) {
         const Edges now = edgesOf(scene.skin, beside.corners);
         const float least = leastShare * beside.area;
         if (!(beside.normal.dot(now.first.cross(now.second)) < least)) continue;
-        any = true;
         // Half as much again, so that neither rounding nor the triangles beside ask for it once more.
         const float part =
             partLeft(edgesOf(scene.carried, beside.corners), now, beside.normal, beside.area, 1.5f * least);
-        for (const int corner : beside.corners)
-            for (const auto& [node, weight] : rig_.foundation.weights[static_cast<std::size_t>(corner)])
-                if (weight != 0) factors_[node] = std::min(factors_[node], part);
+        const auto eachNode = [&](const auto& what) {
+            for (const int corner : beside.corners)
+                for (const auto& [node, weight] : rig_.foundation.weights[static_cast<std::size_t>(corner)])
+                    if (weight != 0) what(node, std::abs(weight));
+        };
+        Move to = Move::Zero();
+        float sum = 0;
+        eachNode([&](std::uint32_t node, float weight) {
+            const Move move = pushes.nodeMove(node);
+            to += weight * move.squaredNorm() * move;
+            sum += weight * move.squaredNorm();
+        });
+        to *= gathers && sum > 0 ? 1 / sum : 0;
+        eachNode([&](std::uint32_t node, float) { wishes_.push_back({node, part, to}); });
     }
-    return any;
+    std::ranges::stable_sort(wishes_, {}, &Wish::node);
 }
 
 bool SkinTurnLimit::limit(SkinScene& scene, SkinPushes& pushes, std::span<char> blocks) {
-    findTriangles(scene, blocks);
-    int round = 0;
-    for (; round < mostRounds && findFactors(scene); ++round) {
+    for (int round = 0; round < mostGathering + mostLowering; ++round) {
+        if (round <= mostGathering) findTriangles(scene, blocks); // gathering displaces more of them
+        findWishes(scene, pushes, round < mostGathering);
+        if (wishes_.empty()) return round > 0;
+        for (auto first = wishes_.begin(); first != wishes_.end();) {
+            Move to = Move::Zero();
+            float part = 1, sum = 0;
+            auto last = first;
+            for (; last != wishes_.end() && last->node == first->node; ++last) {
+                to += (1 - last->part) * last->to;
+                sum += 1 - last->part;
+                part = std::min(part, last->part);
+            }
+            if (sum > 0) to /= sum;
+            const Move now = pushes.nodeMove(first->node);
+            pushes.moveNode(first->node, to + part * (now - to));
+            first = last;
+        }
         for (std::size_t b = 0; b < blocks.size(); ++b) {
             if (blocks[b] == 0) continue;
-            const std::size_t last = std::min((b + 1) * SkinRig::block, scene.carried.size());
-            for (std::size_t v = b * SkinRig::block; v < last; ++v) scene.skin[v] = scene.carried[v];
+            const std::size_t end = std::min((b + 1) * SkinRig::block, scene.carried.size());
+            for (std::size_t v = b * SkinRig::block; v < end; ++v) scene.skin[v] = scene.carried[v];
         }
-        pushes.scale(factors_);
         pushes.displace(scene.skin, blocks);
-        std::fill(factors_.begin(), factors_.end(), 1.0f);
     }
-    return round > 0;
+    return true;
 }
 
 } // namespace tss

@@ -3,31 +3,38 @@
 
 namespace tss {
 
-/// Keeps contacts from turning triangles of the skin over: where pushes would, those around are made smaller
-/// until they do not, in a bounded number of rounds. What is turned over without them is left as it is.
-/// Continuous in the pushes, and without history.
+/// Keeps contacts from turning triangles of the skin over. Where their pushes would, the displacements around
+/// are first brought nearer to the largest of them, so that what is pushed out of a body takes its
+/// surroundings along; where that does not do, they are made smaller until none turns over. Both in a bounded
+/// number of rounds. What is turned over without pushes is left as it is. Without history.
 class SkinTurnLimit {
 public:
     /// Keeps a reference to the rig.
     explicit SkinTurnLimit(const SkinRig& rig);
 
     /// Limits the displacements that pushes have just applied to the skin of a scene. blocks: those that they
-    /// may have displaced. Returns whether any became smaller.
+    /// may have displaced. Returns whether any has changed.
     bool limit(SkinScene& scene, SkinPushes& pushes, std::span<char> blocks);
 
 private:
-    void findTriangles(const SkinScene& scene, std::span<const char> blocks);
-    bool findFactors(const SkinScene& scene);
-
     /// A triangle beside displaced skin that is not turned over as the skin is carried.
     struct Beside {
         Tri corners{0, 0, 0};
         Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, the mean of the skin's at its corners
         float area = 0;                                   ///< as carried, seen along the normal
     };
+    /// A node at a triangle that pushes would turn over.
+    struct Wish {
+        std::uint32_t node = 0;
+        float part = 1;         ///< of the differences between displacements that the triangle can stand
+        Move to = Move::Zero(); ///< what displacements come nearer to
+    };
+    void findTriangles(const SkinScene& scene, std::span<const char> blocks);
+    void findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers);
+
     const SkinRig& rig_;
     std::vector<Beside> beside_;
-    std::vector<float> factors_; ///< per node: of its displacement
+    std::vector<Wish> wishes_;
 };
 
 } // namespace tss
