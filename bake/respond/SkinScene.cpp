@@ -103,19 +103,19 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
     const auto wake = [&](const std::vector<std::uint32_t>& blocks) {
         for (const std::uint32_t b : blocks) scene.live[b] |= 2;
     };
-    std::vector<Pose> local;
-    for (const Pose& pose : poses) local.push_back(rig.local(pose));
+    scene.local.clear();
+    for (const Pose& pose : poses) scene.local.push_back(rig.local(pose));
     for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         const SkinBody& body = rig.bodies[m];
         SkinScene::Placed& placed = scene.bodies[m];
-        placeSurface(body, activations[m], chainMotion(local, m, body.chain), placed, scene);
+        placeSurface(body, activations[m], chainMotion(scene.local, m, body.chain), placed, scene);
         if (activations[m] != 0 || !isAtRest(placed.bones)) wake(body.blocks);
         placed.moved = !isIdentity(poses[m]);
         if (!placed.moved) continue;
-        placed.turn = local[m].linear().cast<float>();
-        placed.shift = local[m].translation().cast<float>();
+        placed.turn = scene.local[m].linear().cast<float>();
+        placed.shift = scene.local[m].translation().cast<float>();
         if (body.frame < 0 || !scene.atRest[body.frame]) continue;
-        scene.frames[body.frame] = DualPose(local[m]);
+        scene.frames[body.frame] = DualPose(scene.local[m]);
         scene.atRest[body.frame] = false;
         wake(rig.frameBlocks[body.frame]);
     }

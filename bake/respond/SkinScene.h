@@ -23,6 +23,7 @@ struct SkinScene {
         }
     };
     std::vector<Placed> bodies;
+    std::vector<Pose> local;       ///< #bodies: motions since rest, run-time lengths
     std::vector<DualPose> frames;  ///< #frames: motion since rest; unset where atRest
     std::vector<bool> atRest;      ///< #frames
     std::vector<Move> surface;     ///< vertices of all bodies, in the bodies' rest frames
