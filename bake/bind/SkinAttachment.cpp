@@ -125,7 +125,7 @@ std::vector<std::vector<double>> frameShares(const SkinAnatomy& anatomy, const S
     if (!p.shares.empty() || count == 0) return p.shares;
     std::vector<std::vector<double>> shares =
         claimedShares(anatomy.skin, anatomy.graph, skinInfluences(anatomy, p, frames),
-                      {swingEnds(p, frames, static_cast<std::size_t>(count)), p.tether});
+                      {endMotions(p, frames, static_cast<std::size_t>(count)), p.tether});
     shares.resize(static_cast<std::size_t>(count));
     return shares;
 }
@@ -192,8 +192,8 @@ std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& para
     return frames;
 }
 
-std::vector<std::vector<DualPose>> swingEnds(const SkinParameters& parameters, const std::vector<int>& frames,
-                                             std::size_t count) {
+std::vector<std::vector<DualPose>> endMotions(const SkinParameters& parameters,
+                                              const std::vector<int>& frames, std::size_t count) {
     std::vector<std::vector<DualPose>> ends;
     for (const BoneSwing& swing : parameters.swings) {
         if (swing.empty()) continue;

@@ -44,9 +44,9 @@ struct SkinAttachment {
 /// The frame of each body, see SkinParameters::frames.
 std::vector<int> framesOf(const SkinAnatomy& anatomy, const SkinParameters& parameters);
 
-/// Where swings end, as ShareOptions::motions of so many frames.
-std::vector<std::vector<DualPose>> swingEnds(const SkinParameters& parameters, const std::vector<int>& frames,
-                                             std::size_t count);
+/// The motions of so many frames where swings end: ShareOptions::motions.
+std::vector<std::vector<DualPose>> endMotions(const SkinParameters& parameters,
+                                              const std::vector<int>& frames, std::size_t count);
 
 /// Which bones and muscles each vertex of a skin follows, and by how much (METHOD 6.3, 6.4): skinInfluences()
 /// finds the vertices that are certainly a bone's, claimedShares() the shares of all others. Shares that the

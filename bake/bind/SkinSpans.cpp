@@ -30,7 +30,7 @@ public:
         attachment_.frames = std::move(wanted_);
         // A tether is in the shares already.
         unfoldShares(anatomy_.skin, anatomy_.graph, anatomy_.length,
-                     {swingEnds(parameters_, frameOf_, still_), {}}, attachment_.frames);
+                     {endMotions(parameters_, frameOf_, still_), {}}, attachment_.frames);
     }
 
 private:
