@@ -1,4 +1,4 @@
-// glTF 2.0 (Khronos, ISO/IEC 12113): skins are 3.7.3.1, the binary container is 4.
+// glTF 2.0 (Khronos, ISO/IEC 12113): morph targets are 3.7.2.2, skins 3.7.3.1, the binary container is 4.
 #include "bake/geometry/MeshFileParts.h"
 
 #include "bake/base/AtomicFile.h"
@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -165,18 +167,21 @@ void leaveOutSkins(Json& gltf, std::vector<std::string>& leftOut) {
         if (!used.contains(k)) gltf["skins"][k] = {{"joints", Json::array()}};
 }
 
-/// assimp gives a skin to the mesh and not to the node: each node with one gets a mesh of its own.
-void separateSkins(Json& gltf) {
+/// assimp gives a skin to the mesh and not to the node, and knows no weights of a node (3.7.2.2): each node
+/// with either gets a mesh of its own.
+void separateMeshes(Json& gltf) {
     std::map<std::size_t, int> uses;
     for (const Json& node : gltf["nodes"])
         if (node.contains("mesh")) ++uses[node["mesh"].get<std::size_t>()];
     for (Json& node : gltf["nodes"]) {
-        if (!node.contains("skin") || !node.contains("mesh")) continue;
-        const auto k = node["mesh"].get<std::size_t>();
-        if (uses[k]-- == 1) continue;
-        const Json copy = gltf.at("meshes").at(k);
-        gltf["meshes"].push_back(copy);
-        node["mesh"] = gltf["meshes"].size() - 1;
+        if (!node.contains("mesh") || !(node.contains("skin") || node.contains("weights"))) continue;
+        auto k = node["mesh"].get<std::size_t>();
+        if (uses[k]-- > 1) {
+            const Json copy = gltf.at("meshes").at(k);
+            gltf["meshes"].push_back(copy);
+            node["mesh"] = k = gltf["meshes"].size() - 1;
+        }
+        if (node.contains("weights")) gltf.at("meshes").at(k)["weights"] = node["weights"];
     }
 }
 
@@ -227,12 +232,12 @@ void addInverseBinds(Json& gltf) {
     }
 }
 
-/// As assimp reads them.
-void prepareSkins(Json& gltf, std::vector<std::string>& leftOut) {
+/// Nodes, skins and weights as assimp reads them.
+void prepareNodes(Json& gltf, std::vector<std::string>& leftOut) {
     if (!gltf.contains("nodes") || !gltf.contains("meshes")) return;
     if (!gltf.contains("skins")) gltf["skins"] = Json::array();
     leaveOutSkins(gltf, leftOut);
-    separateSkins(gltf);
+    separateMeshes(gltf);
     nameJoints(gltf);
     addInverseBinds(gltf);
 }
@@ -244,6 +249,28 @@ void noteInstances(const Json& gltf, std::vector<std::string>& leftOut) {
 }
 
 } // namespace
+
+void expectWholeGlb(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const auto next = [&](std::size_t count) {
+        std::string bytes(count, '\0');
+        stream.read(bytes.data(), static_cast<std::streamsize>(count));
+        return bytes;
+    };
+    if (next(4) != "glTF" || !stream) return; // what it is the importer says
+    const std::uint32_t version = numberAt(next(4), 0);
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    for (std::uint64_t at = glbHeader; !error && at + chunkHeader <= size;) {
+        stream.seekg(static_cast<std::streamoff>(at));
+        const std::uint64_t length = numberAt(next(4), 0), left = size - at - chunkHeader;
+        if (length > left)
+            throw InputError(Where{file}, fmt::format("is cut short: a chunk has {} bytes, and {} are left",
+                                                      length, left));
+        if (version == 1) return; // which has one, and behind it numbers as they are
+        at += chunkHeader + length;
+    }
+}
 
 std::optional<PlainGltf> plainGltf(const std::string& file) {
     const std::string bytes = readWholeFile(file);
@@ -262,7 +289,7 @@ std::optional<PlainGltf> plainGltf(const std::string& file) {
         expectKnown(gltf, file);
         expectFloats(gltf, file);
         PlainGltf plain;
-        prepareSkins(gltf, plain.leftOut);
+        prepareNodes(gltf, plain.leftOut);
         noteInstances(gltf, plain.leftOut);
         const std::string json = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
         plain.bytes = binary ? glbWith(json, bytes, glbHeader + chunkHeader + text.size()) : json;

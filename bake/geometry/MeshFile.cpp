@@ -7,6 +7,7 @@
 #include "bake/base/GitLfs.h"
 #include "bake/base/Subprocess.h"
 #include "bake/base/Words.h"
+#include "bake/geometry/BlendShapes.h"
 #include "bake/geometry/MeshFileParts.h"
 #include "bake/geometry/Polygon.h"
 #include "bake/geometry/SkinPlaces.h"
@@ -24,6 +25,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <memory>
 #include <new>
 #include <optional>
 #include <set>
@@ -90,13 +92,6 @@ private:
     const std::string* instead_ = nullptr;
 };
 
-/// Little-endian, as glTF has it.
-std::uint32_t readNumber(std::istream& stream) {
-    unsigned char bytes[4] = {};
-    stream.read(reinterpret_cast<char*>(bytes), 4);
-    return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
-}
-
 /// The first bytes of a file.
 std::string beginOf(const std::string& file, std::size_t most) {
     std::ifstream stream(file, std::ios::binary);
@@ -110,28 +105,6 @@ std::string beginOf(const std::string& file, std::size_t most) {
 void expectEndedPly(const std::string& file, const std::string& begin) {
     if ((begin.starts_with("ply") || begin.starts_with("PLY")) && begin.find("end_header") == begin.npos)
         throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
-}
-
-/// A binary glTF whose chunks say that they are longer than the file is, which an importer would make room
-/// for. Throws InputError.
-void expectWholeGlb(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    char magic[4] = {};
-    stream.read(magic, 4);
-    if (!stream || std::string(magic, 4) != "glTF") return; // what it is the importer says
-    const std::uint32_t version = readNumber(stream);
-    std::error_code error;
-    const std::uint64_t size = fs::file_size(file, error);
-    constexpr std::uint64_t header = 12, ofChunk = 8; // version and length; a chunk's length and type
-    for (std::uint64_t at = header; !error && at + ofChunk <= size;) {
-        stream.seekg(static_cast<std::streamoff>(at));
-        const std::uint64_t length = readNumber(stream), left = size - at - ofChunk;
-        if (length > left)
-            throw InputError(Where{file}, "is cut short: a chunk has " + std::to_string(length) +
-                                              " bytes, and " + std::to_string(left) + " are left");
-        if (version == 1) return; // which has one, and behind it numbers as they are
-        at += ofChunk + length;
-    }
 }
 
 /// What assimp says of lost surface in its log alone, and goes on. It has one log for a process.
@@ -289,7 +262,8 @@ void expectSmallFaces(const aiScene& scene) {
                                  std::to_string(most));
 }
 
-const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const std::string& file) {
+std::unique_ptr<aiScene> importScene(Assimp::Importer& importer, NearbyFiles& files,
+                                     const std::string& file) {
     Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
     Assimp::DefaultLogger::get()->attachStream(new Losses, Assimp::Logger::Warn | Assimp::Logger::Err);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true); // else nodes alone get a made-up one
@@ -302,7 +276,7 @@ const aiScene& importScene(Assimp::Importer& importer, NearbyFiles& files, const
         throw InputError("cannot be read as a mesh: " + (why.empty() ? "its reader does not say why" : why));
     Losses::expectNoFaces();
     expectSmallFaces(*scene);
-    return *scene;
+    return std::unique_ptr<aiScene>(importer.GetOrphanedScene());
 }
 
 MeshFile readHere(const std::string& file) {
@@ -314,7 +288,9 @@ MeshFile readHere(const std::string& file) {
     auto* files = new NearbyFiles(named);
     importer.SetIOHandler(files); // which owns it
     if (gltf) files->readInstead(gltf->bytes);
-    const aiScene& scene = importScene(importer, *files, named);
+    const std::unique_ptr<aiScene> owned = importScene(importer, *files, named);
+    const aiScene& scene = *owned;
+    if (gltf) applyBlendShapes(*owned);
     MeshFile read;
     const Eigen::Affine3d root = placeOfRoot(scene, file);
     NodePlaces places;

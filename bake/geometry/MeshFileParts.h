@@ -13,6 +13,10 @@ namespace tss {
 
 // What readMeshFile() is made of.
 
+/// Throws InputError for a binary glTF whose chunks say that they are longer than the file is, which an
+/// importer would make room for.
+void expectWholeGlb(const std::string& file);
+
 /// A glTF file, text or binary, as assimp reads it.
 struct PlainGltf {
     std::string bytes;
@@ -20,10 +24,10 @@ struct PlainGltf {
 };
 
 /// The file with skins that assimp can read: it crashes on one without inverse bind matrices, which glTF
-/// allows, finds joints by names alone, and gives a skin to a mesh, where glTF gives it to a node. Nothing
-/// where the file is not a glTF 2 with readable JSON: the importer then says what is wrong. Throws InputError
-/// for nodes that are more than 1000 levels deep, for positions that are not floats, and for a required
-/// extension that is not read and may change surfaces.
+/// allows, finds joints by names alone, and gives a skin and the weights of blend shapes to a mesh, where
+/// glTF gives them to a node. Nothing where the file is not a glTF 2 with readable JSON: the importer then
+/// says what is wrong. Throws InputError for nodes that are more than 1000 levels deep, for positions that
+/// are not floats, and for a required extension that is not read and may change surfaces.
 std::optional<PlainGltf> plainGltf(const std::string& file);
 
 /// The unit and the up axis that a file of Collada (which assimp turns into metres), glTF, FBX, 3MF or AMF

@@ -152,4 +152,35 @@ TEST_CASE(
     CHECK(leftOut("", 5126) == "/skins/0, which is not there");
 }
 
+TEST_CASE(
+    "blend shapes are on as far as a glTF has them on where nothing is played, its node before its mesh") {
+    const std::string name = std::string(OSGTSS_BINARY_DIR) + "/blend_shapes.gltf", buffer = name + ".bin";
+    std::string bytes;
+    for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f,  // a triangle
+                              0.f, 0.f, 0.f, 0.f, 0.f, 2.f, 0.f, 0.f, 0.f,  // its second corner up
+                              0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 0.f, 4.f}) // its third
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    std::ofstream(buffer, std::ios::binary) << bytes;
+    const auto vertices = [&](const std::string& ofMesh, const std::string& nodes) {
+        std::ofstream(name) << fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"targets":[{{"POSITION":1}},{{"POSITION":2}}]}}]{}}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},
+{{"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}},
+{{"bufferView":2,"componentType":5126,"count":3,"type":"VEC3"}}],
+"bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":36}},
+{{"buffer":0,"byteOffset":72,"byteLength":36}}],"buffers":[{{"byteLength":108,"uri":"blend_shapes.gltf.bin"}}]}})",
+            nodes, ofMesh);
+        return importMesh(name).vertices;
+    };
+    const std::string one = R"({"mesh":0})";
+    CHECK(vertices("", one) == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(vertices(R"(,"weights":[1,0.25])", one) == std::vector<Vec3>{{0, 0, 0}, {1, 0, 2}, {0, 1, 1}});
+    // Of two nodes with one mesh each has its own.
+    CHECK(vertices(R"(,"weights":[1,0.25])", R"({"mesh":0,"weights":[0,0.5],"children":[1]},{"mesh":0})") ==
+          std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 2}, {1, 0, 2}, {0, 1, 1}}); // one corner in common
+    std::filesystem::remove(name);
+    std::filesystem::remove(buffer);
+}
+
 #endif
