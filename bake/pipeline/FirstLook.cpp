@@ -1,18 +1,14 @@
 #include "bake/pipeline/FirstLook.h"
 
-#include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
-#include "bake/motion/WholeTurn.h"
 #include "bake/search/RestContact.h"
-#include "bake/search/SurfacesApart.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
+#include <fmt/format.h>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace tss {
 
@@ -24,27 +20,13 @@ double oneDigit(double value) {
     return std::round(value / digit) * digit;
 }
 
-/// Rounded down to one digit; a value that is short of a digit by rounding counts as that.
-double oneDigitBelow(double value) {
-    const double digit = std::pow(10, std::floor(std::log10(value)));
-    return std::floor(value / digit * (1 + 1e-6)) * digit;
-}
-
-/// Seconds of processor time of all threads of this program: other programs take none of them.
-double processSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Whether the surfaces of the pair are shown never to meet before this program has run for so many seconds:
-/// what is proposed must not hang on what else runs.
-bool staysApart(const SceneModel& scene, const Pair& pair, double until) {
-    const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
-    const Motion motion = onceRound(pairMotion(scene, pair));
-    const auto inTime = [&](std::string_view, double) { return processSeconds() < until; };
-    return inTime("", 0) &&
-           surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), inTime).has_value();
+/// The tolerance of a first look at a pair whose meshes are so far apart at rest, scene units.
+double firstTolerance(const SceneModel& scene, const Pair& pair, double distance) {
+    const double smaller =
+        std::min(diagonal(scene.bodies[pair.bodyA].mesh), diagonal(scene.bodies[pair.bodyB].mesh));
+    if (!(distance > 0)) return smaller / 100;
+    if (isLongChain(scene, pair)) return smaller / 30;
+    return std::max(std::min(smaller / 30, 0.3 * distance), smaller / 500);
 }
 
 } // namespace
@@ -85,19 +67,15 @@ double usualTolerance(const SceneModel& scene) {
     return oneDigit(*middle / 30) / millimetres;
 }
 
-double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest) {
-    const double millimetres = 1000 * scene.metersPerUnit, usual = millimetres * usualTolerance(scene);
-    const double least = usual / 100; // fitted parts, where a bake makes spheres finer by itself
-    std::vector<std::pair<double, const Pair*>> rooms; // millimetres
-    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
-        if (const double room = 0.3 * millimetres * distancesAtRest[k]; room > least && room < usual)
-            rooms.emplace_back(room, &scene.pairs[k]);
-    std::ranges::sort(rooms, {}, &std::pair<double, const Pair*>::first);
-    constexpr double seconds = 10; // five on two cores
-    const double until = processSeconds() + seconds;
-    for (const auto& [room, pair] : rooms)
-        if (!staysApart(scene, *pair, until)) return oneDigitBelow(room) / millimetres;
-    return usual / millimetres;
+void setFirstTolerances(SceneModel& scene, const std::vector<double>& distancesAtRest) {
+    if (std::ranges::none_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair); })) return;
+    const double millimetres = 1000 * scene.metersPerUnit;
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
+        Pair& pair = scene.pairs[k];
+        const double tolerance = millimetres * firstTolerance(scene, pair, distancesAtRest[k]);
+        if (tolerance > 0 && std::isfinite(tolerance))
+            pair.settings["tolerance"] = fmt::format("{:.2g}mm", tolerance);
+    }
 }
 
 double firstBudget(const SceneModel& scene) {

@@ -16,11 +16,12 @@ std::vector<double> distancesAtRest(const SceneModel& scene);
 /// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
 double usualTolerance(const SceneModel& scene);
 
-/// The tolerance for a first look at such pairs, scene units: the usual one, but no more than three tenths of
-/// the distance of any two meshes at rest, so that the spheres of both bodies together leave some of it.
-/// Pairs whose surfaces are shown within ten seconds of processor time to stay apart do not count: they need
-/// no spheres. Nor do those for which it would be less than a hundredth of the usual one.
-double firstTolerance(const SceneModel& scene, const std::vector<double>& distancesAtRest);
+/// Where some pair is a long chain: gives each pair the tolerance of a first look, a length with its unit, as
+/// its setting. A thirtieth of the diagonal of its smaller body. A hundredth where the two touch or overlap
+/// at rest, for what is near that is exempt; and of pairs that are no long chains no more than three tenths
+/// of their distance at rest, so that the spheres of both leave their joint some of it. None is finer than
+/// what a bake takes by itself, a 500th.
+void setFirstTolerances(SceneModel& scene, const std::vector<double>& distancesAtRest);
 
 /// The budget, seconds per pair, with which baking all pairs of a scene takes some minutes.
 double firstBudget(const SceneModel& scene);

@@ -12,7 +12,7 @@ std::string sizeText(const Vec3& size, double metersPerUnit);
 bool isOddSize(double metres);
 
 /// Says what the scene holds that was written: meshes, joints, notes, what comes next. Returns it as data.
-Json sayScene(const RobotScene& made, const std::string& output, const Console& console);
+Json sayScene(const MadeScene& made, const std::string& output, const Console& console);
 
 /// Writes the scene of a robot to `output` and says what it holds. motion: a CSV file, see applyMotion(), or
 /// empty. Throws InputError.

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace tss::tool {
 
@@ -52,16 +53,35 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
 }
 
 /// The command to go on with: where there are many pairs, with some minutes of searching for all together.
-std::string nextCommand(const SceneModel& scene, const std::vector<double>& distances,
-                        const std::string& output) {
-    const std::string command = "tss bake " + shellWord(output) + " -o BAKED.tss",
-                      budget = fmt::format(" --budget {:g}", firstBudget(scene));
-    if (std::ranges::any_of(scene.pairs, [&](const Pair& pair) { return isLongChain(scene, pair); }))
-        return command +
-               fmt::format(" --tolerance {:g}mm",
-                           1000 * scene.metersPerUnit * firstTolerance(scene, distances)) +
-               budget;
-    return command + (scene.pairs.size() > 40 ? budget : "");
+std::string nextCommand(const SceneModel& scene, const std::string& output) {
+    const bool many = scene.pairs.size() > 40 || std::ranges::any_of(scene.pairs, [&](const Pair& pair) {
+                          return isLongChain(scene, pair);
+                      });
+    return "tss bake " + shellWord(output) + " -o BAKED.tss" +
+           (many ? fmt::format(" --budget {:g}", firstBudget(scene)) : "");
+}
+
+/// The tolerances that the pairs have of their own. Nothing: none.
+std::string ownTolerances(const SceneModel& scene) {
+    std::map<double, std::string> tolerances;
+    for (const Pair& pair : scene.pairs)
+        if (const auto at = pair.settings.find("tolerance"); at != pair.settings.end())
+            tolerances.emplace(parseLength(at->second, scene.metersPerUnit), at->second);
+    if (tolerances.empty()) return "";
+    const std::string &least = tolerances.begin()->second, &most = tolerances.rbegin()->second;
+    return fmt::format("tolerances: {}, each pair its own (tss:bake:tolerance in the scene; bake --tolerance "
+                       "sets one for all)",
+                       least == most ? least : least + " to " + most);
+}
+
+/// What makes fewer pairs, where there are so many that they take longer than somebody waits.
+std::string fewerPairs(const SceneModel& scene) {
+    constexpr std::size_t many = 100;
+    const auto tied = [&](const Pair& pair) { return tiesDirectly(scene, pair); };
+    if (scene.pairs.size() <= many || std::ranges::all_of(scene.pairs, tied)) return "";
+    return fmt::format("{} take some seconds of one core each; for a picture sooner make only those that a "
+                       "joint ties: --pairs neighbours",
+                       counted(scene.pairs.size(), "pair"));
 }
 
 /// Parts that no joint ties and that overlap all the same mostly lie where they should not. Nothing: none.
@@ -89,7 +109,7 @@ bool isOddSize(double metres) {
     return metres > house || (metres > 0 && metres < grain);
 }
 
-Json sayScene(const RobotScene& made, const std::string& output, const Console& console) {
+Json sayScene(const MadeScene& made, const std::string& output, const Console& console) {
     const Json links = sayLinks(made, console);
     Json joints = Json::array();
     for (const Joint& joint : made.scene.joints) {
@@ -103,12 +123,13 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
         console.say(primName(joint.path) + ": " +
                     (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
     }
-    const std::vector<double> distances = distancesAtRest(made.scene);
     std::vector<std::string> notes = made.notes;
-    if (std::string note = overlapsElsewhere(made.scene, distances); !note.empty())
+    if (std::string note = overlapsElsewhere(made.scene, made.distances); !note.empty())
         notes.push_back(std::move(note));
     for (const std::string& note : notes) console.say("note: " + note);
     remarkBodySizes(made.scene, console);
+    for (const std::string& text : {ownTolerances(made.scene), fewerPairs(made.scene)})
+        if (!text.empty()) console.say(text);
     Json pairs = Json::array(), muscles = Json::array(), skins = Json::array();
     for (const Pair& pair : made.scene.pairs) pairs.push_back(pair.path);
     for (const MuscleModel& muscle : made.scene.muscles) muscles.push_back(muscle.path);
@@ -117,7 +138,7 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
     console.say(fmt::format("wrote {}: {}, {}, {}; {}", output, counted(made.links.size(), "part"),
                             counted(made.scene.joints.size(), "joint"), counted(pairs.size(), "pair"),
                             nothing ? "nothing to bake: no two bodies with a surface move against each other"
-                                    : "next: " + nextCommand(made.scene, distances, output)));
+                                    : "next: " + nextCommand(made.scene, output)));
     return {{"output", output}, {"robot", made.scene.defaultPrim},
             {"links", links},   {"joints", joints},
             {"pairs", pairs},   {"muscles", muscles},
@@ -126,7 +147,7 @@ Json sayScene(const RobotScene& made, const std::string& output, const Console& 
 
 void makeRobot(const RobotFile& from, const std::string& motion, const std::string& output,
                const Console& console) {
-    RobotScene made = readRobotScene(from);
+    MadeScene made = readRobotScene(from);
     if (!motion.empty()) {
         if (made.scene.layer)
             throw InputError(

@@ -2,6 +2,7 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/pipeline/FirstLook.h"
 #include "bake/robot/MeshFiles.h"
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
@@ -68,8 +69,8 @@ Robot readRobot(const RobotFile& from, const FindMesh& find) {
 
 #ifdef OSGTSS_HAVE_USDA
 
-RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
-    RobotScene made;
+MadeScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
+    MadeScene made;
     made.notes = stage.notes;
     try {
         made.scene = readScene(stage.layer, file);
@@ -77,13 +78,14 @@ RobotScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
         throw InputError(Where{error.where.file, "", error.where.path}, error.message);
     }
     for (const Body& body : made.scene.bodies) made.links.push_back({body.path, 1, false});
+    made.distances = distancesAtRest(made.scene);
     return made;
 }
 
 /// The scene of a `.usda`: as it stands there where it is one of this software, else that of the robot that
 /// its UsdPhysics describes. Its files may lie in the folders of the packages too.
-RobotScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request,
-                        const std::vector<std::string>& offsets) {
+MadeScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request,
+                       const std::vector<std::string>& offsets) {
     std::vector<std::string> folders;
     for (const auto& [name, folder] : packages)
         if (!folder.empty()) folders.push_back(folder);
@@ -98,19 +100,26 @@ RobotScene readUsdScene(const std::string& file, const Packages& packages, const
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
     Robot robot = robotOf(std::move(stage), file);
     moveLinks(robot, offsets);
-    return sceneOf(robot, request, none);
+    return newScene(robot, request, none);
 }
 
 #else
 
-RobotScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&,
-                        const std::vector<std::string>&) {
+MadeScene readUsdScene(const std::string& file, const Packages&, const RobotSceneRequest&,
+                       const std::vector<std::string>&) {
     throw InputError(Where{file}, "this build reads no USD (OSGTSS_USDA is off)");
 }
 
 #endif
 
 } // namespace
+
+MadeScene newScene(const Robot& robot, const RobotSceneRequest& request, const FindMesh& find) {
+    MadeScene made{sceneOf(robot, request, find), {}};
+    made.distances = distancesAtRest(made.scene);
+    setFirstTolerances(made.scene, made.distances);
+    return made;
+}
 
 int linkCalled(const Robot& robot, const std::string& name, const std::string& option) {
     std::string known;
@@ -158,7 +167,7 @@ bool isRobot(const std::string& file) {
     return root == "robot" || root == "mujoco";
 }
 
-RobotScene readRobotScene(const RobotFile& from) {
+MadeScene readRobotScene(const RobotFile& from) {
     if (isMeshName(from.input))
         throw InputError(Where{from.input},
                          "is a mesh; expected a robot's file, or two meshes as --a and --b");
@@ -176,7 +185,7 @@ RobotScene readRobotScene(const RobotFile& from) {
     }
     const FindMesh find = meshesOf(from.input, packages);
     const Robot robot = readRobot(from, find);
-    return inFile(from.input, [&] { return sceneOf(robot, request, find); });
+    return inFile(from.input, [&] { return newScene(robot, request, find); });
 }
 
 } // namespace tss::tool

@@ -29,7 +29,15 @@ bool isUsd(const std::string& file);
 /// A file that describes a robot, by its name, an .xml by its first element: URDF or MJCF.
 bool isRobot(const std::string& file);
 
+/// The scene of a robot, and how far apart the meshes of its pairs are at rest, see distancesAtRest().
+struct MadeScene : RobotScene {
+    std::vector<double> distances;
+};
+
+/// sceneOf(), its pairs with the tolerances of a first look.
+MadeScene newScene(const Robot& robot, const RobotSceneRequest& request, const FindMesh& find);
+
 /// The scene of a robot. Throws InputError, also where this build has no reader for it.
-RobotScene readRobotScene(const RobotFile& from);
+MadeScene readRobotScene(const RobotFile& from);
 
 } // namespace tss::tool

@@ -5,7 +5,6 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/ShowMotion.h"
-#include "bake/robot/RobotScene.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/DofSpec.h"
@@ -124,7 +123,7 @@ void makeWholeScene(const WholeSceneArguments& arguments, const Console& console
     const Robot robot = robotOf(arguments);
     RobotSceneRequest request;
     request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
-    RobotScene made = sceneOf(robot, request, [](const std::string& name) { return name; });
+    MadeScene made = newScene(robot, request, [](const std::string& name) { return name; });
     addSoftBodies(made, robot, arguments, console);
     if (const std::string text = unlikeUnits(made.scene); !text.empty()) made.notes.push_back(text);
     if (arguments.motion.empty())

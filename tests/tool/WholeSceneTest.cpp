@@ -1,10 +1,12 @@
 // `tss make` of several bodies, joints, muscles and a skin.
+#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Swing.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 using Json = nlohmann::json;
@@ -203,40 +205,50 @@ TEST_CASE("bodies that overlap at rest get a joint to paste, and what hangs on t
     CHECK((pose(wrist, std::vector{0.03}) * tss::Vec3(0, 0, 2.05) - tss::Vec3(0, 0, 2.05)).norm() < 1e-6);
 }
 
-TEST_CASE("make proposes a tolerance that leaves parts their room, and tells of parts that overlap untied") {
+TEST_CASE(
+    "make gives each pair of a long chain's scene a tolerance by its bodies and their room at rest, and "
+    "tells of parts that overlap untied") {
     const Folder folder;
     writeObj(boxMesh({-1, -1, -1}, {1, 1, 0}), folder / "block.obj");
-    writeObj(boxMesh({-1, -1, 0.01}, {1, 1, 0.5}), folder / "lid.obj"); // 10 mm above it
-    writeObj(boxMesh({0.8, -0.2, 0.6}, {1.4, 0.2, 0.8}), folder / "arm.obj");
-    writeObj(boxMesh({1.2, -0.2, 0.9}, {1.8, 0.2, 1.1}), folder / "hand.obj");
-    const std::string bodies =
-        "make -o out.tss --body block.obj --body lid.obj --body arm.obj --body hand.obj "
-        "--joint 'wrist=arm,hand:rot:1.3,0,0.85:0,0,1:-9:9;rot:1.3,0,0.85:1,0,0:-1:1' "
-        "--joint 'elbow=lid,arm:rot:0.9,0,0.55:0,0,1:-9:9' --json ";
-    const auto made = [&](const std::string& lift) {
-        return runTss(bodies + "--joint 'lift=block,lid:trans:0,0,1:" + lift + "'", folder.path());
+    writeObj(boxMesh({-1, -1, 0.04}, {1, 1, 0.5}), folder / "lid.obj");       // 40 mm above it
+    writeObj(boxMesh({0.8, -0.2, 0.4}, {1.4, 0.2, 0.8}), folder / "arm.obj"); // in the lid
+    writeObj(boxMesh({1.2, -0.2, 0.81}, {1.8, 0.2, 1.1}), folder / "hand.obj");
+    const std::string wrist = "--joint 'wrist=arm,hand:rot:1.3,0,0.85:0,0,1:-9:9;rot:1.3,0,0.85:1,0,0:-1:1' ",
+                      bodies =
+                          "make -o out.tss --body block.obj --body lid.obj --body arm.obj --body hand.obj "
+                          "--joint 'lift=block,lid:trans:0,0,1:-0.1:0.5' "
+                          "--joint 'elbow=lid,arm:rot:0.9,0,0.55:0,0,1:-9:9' --json ";
+    const auto made = [&](const std::string& joints) {
+        const Ran ran = runTss(bodies + joints, folder.path());
+        INFO(ran.err);
+        REQUIRE(ran.exit == 0);
+        CHECK(ran.err.find("next: tss bake out.tss -o BAKED.tss") != std::string::npos);
+        std::map<std::string, double> tolerances; // of the smaller body's diagonal
+        const tss::SceneModel scene = tss::loadScene(folder / "out.tss");
+        for (const tss::Pair& pair : scene.pairs) {
+            const double smaller = std::min(tss::diagonal(scene.bodies[pair.bodyA].mesh),
+                                            tss::diagonal(scene.bodies[pair.bodyB].mesh));
+            const std::string name = tss::primName(scene.bodies[pair.bodyA].path) + " " +
+                                     tss::primName(scene.bodies[pair.bodyB].path);
+            const tss::BakeOptions options = tss::optionsFor(pair.settings, {}, scene.metersPerUnit);
+            tolerances[name] = options.tolerance.value_or(0) / smaller;
+        }
+        return tolerances;
     };
-    const Ran meeting = made("-0.1:0.5");
-    INFO(meeting.err);
-    REQUIRE(meeting.exit == 0);
-    CHECK(meeting.err.find("-o BAKED.tss --tolerance 3mm --budget") != std::string::npos);
-    CHECK(Json::parse(meeting.out)["notes"].empty());
-    // The same room where the two never meet asks for nothing: no spheres show that.
-    const Ran apart = made("0:0.5");
-    INFO(apart.err);
-    CHECK(apart.err.find("-o BAKED.tss --tolerance 3mm --budget") == std::string::npos);
-    CHECK(apart.err.find("-o BAKED.tss --tolerance ") != std::string::npos);
-    // Nor does one so small that no spheres of a first look leave any of it.
+    auto share = made(wrist);
+    CHECK(share["block hand"] == Approx(1 / 30.0).epsilon(0.05)); // a long chain
+    CHECK(share["lid arm"] == Approx(0.01).epsilon(0.05));        // what is near the overlap is exempt
+    CHECK(share["block lid"] * std::sqrt(8.2116) == Approx(0.012).epsilon(0.05)); // room of 40 mm
     writeObj(boxMesh({-1, -1, 1e-4}, {1, 1, 0.5}), folder / "lid.obj");
-    const auto proposed = [](const std::string& text) {
-        const auto at = text.find("--tolerance");
-        return text.substr(at, text.find(" --budget", at) - at);
-    };
-    CHECK(proposed(made("-0.1:0.5").err) == proposed(apart.err));
+    CHECK(made(wrist)["block lid"] == Approx(1 / 500.0).epsilon(0.05)); // no finer than a bake by itself
+    // Without a long chain they have what a bake takes by itself.
+    for (const auto& [name, tolerance] : made("--joint 'wrist=arm,hand:rot:1.3,0,0.85:0,0,1:-9:9' "))
+        CHECK(tolerance == 0);
 
     writeObj(boxMesh({1.2, -0.2, -0.5}, {1.8, 0.2, 0.3}), folder / "arm.obj");
     writeObj(boxMesh({0.9, -0.2, -0.6}, {1.1, 0.2, -0.2}), folder / "hand.obj"); // half in the block
-    const Json notes = Json::parse(made("0:0.5").out)["notes"];
+    writeObj(boxMesh({-1, -1, 0.01}, {1, 1, 0.5}), folder / "lid.obj");
+    const Json notes = Json::parse(runTss(bodies + wrist, folder.path()).out)["notes"];
     REQUIRE(notes.size() == 1);
     CHECK(notes[0].get<std::string>().starts_with("block and hand: touch or overlap where the joints rest"));
 }
