@@ -1,5 +1,4 @@
 // `tss make` of several bodies, joints, muscles and a skin.
-#include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Swing.h"
 
@@ -230,8 +229,9 @@ TEST_CASE(
                                             tss::diagonal(scene.bodies[pair.bodyB].mesh));
             const std::string name = tss::primName(scene.bodies[pair.bodyA].path) + " " +
                                      tss::primName(scene.bodies[pair.bodyB].path);
-            const tss::BakeOptions options = tss::optionsFor(pair.settings, {}, scene.metersPerUnit);
-            tolerances[name] = options.tolerance.value_or(0) / smaller;
+            const auto own = pair.settings.find("tolerance"); // in millimetres
+            const double millimetres = own == pair.settings.end() ? 0 : std::stod(own->second);
+            tolerances[name] = millimetres / 1000 / scene.metersPerUnit / smaller;
         }
         return tolerances;
     };
