@@ -55,6 +55,21 @@ double areaOf(std::span<const Vec3> skin, int ring) {
     return sum.norm();
 }
 
+SkinTable tableOf(const TriangleMesh& skin, const std::vector<std::shared_ptr<const MuscleDeformer>>& bodies,
+                  const SkinParameters& parameters) {
+    std::vector<SkinSearchMuscle> searched;
+    for (const auto& body : bodies)
+        searched.push_back({body.get(), skins::insetSpheres(body->muscle().surface, 0.02)});
+    SkinSearchOptions options;
+    options.travel = 0.02;
+    options.swings = parameters.swings;
+    options.chains = parameters.chains;
+    SkinMoves moves = skinMoves(skin, bodies, parameters);
+    options.stray = std::move(moves.stray);
+    options.shares = std::move(moves.shares);
+    return searchSkin(skin, searched, options);
+}
+
 /// A limb with a flexor and an extensor between its two bones, each overlapping a muscle beside it, and none
 /// of it prepared.
 struct FleshyLimb {
@@ -94,17 +109,7 @@ struct FleshyLimb {
         BoneSwing swing;
         for (int k = 1; k <= 16; ++k) swing.push_back(posesAt(limit * k / 16));
         parameters.swings = {swing};
-        std::vector<SkinSearchMuscle> searched;
-        for (const auto& body : bodies)
-            searched.push_back({body.get(), skins::insetSpheres(body->muscle().surface, 0.02)});
-        SkinSearchOptions options;
-        options.travel = 0.02;
-        options.swings = parameters.swings;
-        options.chains = parameters.chains;
-        SkinMoves moves = skinMoves(skin, bodies, parameters);
-        options.stray = std::move(moves.stray);
-        options.shares = std::move(moves.shares);
-        table = searchSkin(skin, searched, options);
+        table = tableOf(skin, bodies, parameters);
     }
 
     /// The skin bent, with its contacts or without.
@@ -220,16 +225,7 @@ TEST_CASE(
     BoneSwing swing;
     for (int k = 1; k <= 16; ++k) swing.push_back(posesAt(120.0 * k / 16));
     parameters.swings = {swing};
-    std::vector<SkinSearchMuscle> searched;
-    for (const auto& bone : bones)
-        searched.push_back({bone.get(), skins::insetSpheres(bone->muscle().surface, 0.02)});
-    SkinSearchOptions options;
-    options.travel = 0.02;
-    options.swings = parameters.swings;
-    SkinMoves moves = skinMoves(skin, bones, parameters);
-    options.stray = std::move(moves.stray);
-    options.shares = std::move(moves.shares);
-    SkinResponse response(makeSkinRig(skin, bones, searchSkin(skin, searched, options), parameters));
+    SkinResponse response(makeSkinRig(skin, bones, tableOf(skin, bones, parameters), parameters));
     const SkinFollowMeasure measure(skin, bones, response.rig());
     double out = 0; // of all vertices of the bones, at all poses
     for (const double degrees : {60.0, 80.0, 90.0, 100.0, 110.0, 120.0}) {
