@@ -11,9 +11,9 @@ namespace tss {
 namespace {
 
 /// Most rounds of querying, solving and moving: where the skin has moved to there are new contacts, and the
-/// normals of curved surfaces have changed. Most updates end after a few; in the crook of an elbow, between
-/// two bones, 24 were needed.
-constexpr int mostRounds = 32;
+/// normals of curved surfaces have changed. The more of them only where what is lacking can be seen: in the
+/// crook of an elbow, between two bones, 24 were needed.
+constexpr int usualRounds = 8, mostRounds = 32;
 
 /// Rounds in a row that leave the planes violated no less: they demand more than the skin can give.
 constexpr int mostStalled = 3;
@@ -290,7 +290,8 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         }
         stalled = lack < last ? 0 : stalled + 1;
         last = lack;
-        if (round < mostRounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
+        const int rounds = now > unseen ? mostRounds : usualRounds;
+        if (round < rounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
         // Where bones press from two sides the last result may be worse than an earlier one.
         return limited(scene, diverged || now > least ? apply(scene, best_) : pushing);
     }
