@@ -227,7 +227,7 @@ TEST_CASE(
     parameters.swings = {swing};
     SkinResponse response(makeSkinRig(skin, bones, tableOf(skin, bones, parameters), parameters));
     const SkinFollowMeasure measure(skin, bones, response.rig());
-    double out = 0; // of all vertices of the bones, at all poses
+    double out = 0; // the farthest vertex of the bones, at all poses
     for (const double degrees : {60.0, 80.0, 90.0, 100.0, 110.0, 120.0}) {
         const std::vector<Pose> poses = posesAt(degrees);
         response.update(std::vector<double>(2, 0), poses);
@@ -235,11 +235,12 @@ TEST_CASE(
         for (std::size_t k = 0; k < 2; ++k) {
             std::vector<Vec3> bone = bones[k]->muscle().surface.vertices;
             for (Vec3& v : bone) v = poses[k] * v;
-            for (const double depth : skins::poking(bone, now, 1)) out += depth;
+            for (const double depth : skins::poking(bone, now, 1)) out = std::max(out, depth);
         }
         CHECK(measure.at(response.positions(), poses).turnedOver <= 3);
     }
-    CHECK(out < 0.002); // 0.005 where what would turn over is only pushed less
+    // 0.0002 may stay unseen; 0.0012 where what would turn over is only pushed less.
+    CHECK(out < 0.0006);
 }
 
 TEST_CASE("a limb's skin follows the bone that it lies on and does not collapse where the limb bends") {
