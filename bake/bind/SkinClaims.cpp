@@ -20,6 +20,9 @@ constexpr double seedNearShare = 0.5;
 /// exceeds this share of the largest contrast of any vertex. With less, skin that only passes by another bone
 /// would count; with more, a bone with little skin would have no seeds.
 constexpr double seedContrast = 0.2;
+/// The largest contrast counts as at most this many times that of the next influence: a long bone beside a
+/// short one would have no seeds near their joint, and the skin there would go with the short one.
+constexpr double mostUneven = 1.5;
 /// Share of those that are kept, the nearest ones: the others lie beyond the ends of the influence.
 constexpr double seedShare = 0.8;
 /// In sizes of an influence: smaller distances count as this much, the thickness of tissue under which a
@@ -32,25 +35,40 @@ constexpr double claimWeight = 8;
 /// How fast the certainty of a claim grows with the distance from where two claims meet.
 constexpr int certaintyPower = 8;
 
-/// For each vertex the distance from the nearest other influence less that from this one; infinite for the
-/// only one.
-std::vector<double> contrastOf(const std::vector<SkinInfluence>& influences, std::size_t index) {
+/// How much nearer vertices are to an influence than to all others.
+struct Contrast {
+    std::vector<double> by; ///< #V: distance from the nearest other less that from this one, scene units;
+                            ///< infinite for the only one
+    std::vector<std::size_t> other; ///< #V: which that is
+    double most = -infinity;        ///< the largest, but for vertices that are excluded
+};
+
+bool isExcluded(const SkinInfluence& influence, std::size_t v) {
+    return !influence.excluded.empty() && influence.excluded[v];
+}
+
+Contrast contrastOf(const std::vector<SkinInfluence>& influences, std::size_t index) {
     const std::vector<double>& own = influences[index].distance;
-    std::vector<double> contrast(own.size(), infinity);
-    for (std::size_t h = 0; h < influences.size(); ++h)
-        for (std::size_t v = 0; v < own.size() && h != index; ++v)
-            contrast[v] = std::min(contrast[v], influences[h].distance[v] - own[v]);
+    Contrast contrast{std::vector<double>(own.size(), infinity), std::vector<std::size_t>(own.size(), index)};
+    for (std::size_t v = 0; v < own.size(); ++v) {
+        for (std::size_t h = 0; h < influences.size(); ++h) {
+            const double by = influences[h].distance[v] - own[v];
+            if (h == index || by >= contrast.by[v]) continue;
+            contrast.by[v] = by;
+            contrast.other[v] = h;
+        }
+        if (!isExcluded(influences[index], v)) contrast.most = std::max(contrast.most, contrast.by[v]);
+    }
     return contrast;
 }
 
 /// Seeds by the first rule (seedNear, seedFar, seedNearer); empty by seedNearShare.
-std::vector<std::uint32_t> seedsByDistance(const SkinInfluence& influence,
-                                           const std::vector<double>& contrast) {
+std::vector<std::uint32_t> seedsByDistance(const SkinInfluence& influence, const Contrast& contrast) {
     std::vector<std::uint32_t> seeds;
     std::size_t far = 0; // vertices far enough from all others
-    for (std::uint32_t v = 0; v < contrast.size(); ++v) {
+    for (std::uint32_t v = 0; v < contrast.by.size(); ++v) {
         const double own = influence.distance[v];
-        if (contrast[v] + own <= std::max(seedFar * influence.size, seedNearer * own)) continue;
+        if (contrast.by[v] + own <= std::max(seedFar * influence.size, seedNearer * own)) continue;
         ++far;
         if (own < seedNear * influence.size) seeds.push_back(v);
     }
@@ -58,18 +76,19 @@ std::vector<std::uint32_t> seedsByDistance(const SkinInfluence& influence,
     return seeds;
 }
 
-/// Seeds by the second rule (seedContrast, seedShare).
-std::vector<std::uint32_t> seedsByContrast(const SkinInfluence& influence, std::vector<double> contrast) {
-    for (std::size_t v = 0; v < influence.excluded.size(); ++v)
-        if (influence.excluded[v]) contrast[v] = -infinity;
-    const double most = *std::max_element(contrast.begin(), contrast.end());
+/// Seeds by the second rule (seedContrast, mostUneven, seedShare).
+std::vector<std::uint32_t> seedsByContrast(const SkinInfluence& influence,
+                                           const std::vector<Contrast>& contrasts, std::size_t index) {
+    const Contrast& contrast = contrasts[index];
     std::vector<std::uint32_t> seeds;
     std::vector<double> distances;
-    for (std::uint32_t v = 0; v < contrast.size(); ++v)
-        if (contrast[v] > seedContrast * std::max(most, 0.0)) {
-            seeds.push_back(v);
-            distances.push_back(influence.distance[v]);
-        }
+    for (std::uint32_t v = 0; v < contrast.by.size(); ++v) {
+        const double largest =
+            std::max(std::min(contrast.most, mostUneven * contrasts[contrast.other[v]].most), 0.0);
+        if (isExcluded(influence, v) || contrast.by[v] <= seedContrast * largest) continue;
+        seeds.push_back(v);
+        distances.push_back(influence.distance[v]);
+    }
     if (seeds.empty()) return seeds;
     const auto last =
         std::min(static_cast<std::size_t>(seedShare * static_cast<double>(seeds.size())), seeds.size() - 1);
@@ -108,11 +127,12 @@ std::vector<double> gapsOf(const SkinGraph& graph, const std::vector<std::uint32
 std::vector<std::vector<std::uint32_t>> seedsOf(const std::vector<SkinInfluence>& influences) {
     std::vector<std::vector<std::uint32_t>> clear, seeds;
     bool all = true;
+    std::vector<Contrast> contrasts;
+    for (std::size_t h = 0; h < influences.size(); ++h) contrasts.push_back(contrastOf(influences, h));
     for (std::size_t h = 0; h < influences.size(); ++h) {
-        const std::vector<double> contrast = contrastOf(influences, h);
-        seeds.push_back(seedsByContrast(influences[h], contrast));
+        seeds.push_back(seedsByContrast(influences[h], contrasts, h));
         const bool sized = std::isfinite(influences[h].size);
-        clear.push_back(sized ? seedsByDistance(influences[h], contrast) : seeds.back());
+        clear.push_back(sized ? seedsByDistance(influences[h], contrasts[h]) : seeds.back());
         all = all && !clear.back().empty();
     }
     return all ? clear : seeds;

@@ -52,9 +52,13 @@ TEST_CASE(
         const double own = k < 8 ? 0.2 : k == 8 ? 0.3 : 0.4;
         limb.emplace_back(own, own + 0.05 + 0.1 * k);
     }
-    limb.emplace_back(0.9, 0.2);
+    limb.emplace_back(0.9, 0.2); // of the other
     // 0.15 is less than a fifth of 0.95, and of the eight that are left one in five is not taken.
     CHECK(seedsOf(Two(limb).influences)[0] == Vertices{2, 3, 4, 5, 6, 7, 8});
+    // Beside a short bone, of which no skin is nearer than to the other by more than 0.4, its seeds begin
+    // where they would if 0.6 were the most.
+    limb.back() = {0.6, 0.2};
+    CHECK(seedsOf(Two(limb).influences)[0] == Vertices{1, 2, 3, 4, 5, 6, 7, 8});
 }
 
 TEST_CASE(
