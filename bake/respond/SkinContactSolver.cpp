@@ -63,8 +63,7 @@ void eachVertex(const SkinRow& row, const What& what) {
 
 SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
     : rig_(rig), clock_(clock), pushes_(rig.foundation), turnLimit_(rig), planeOf_(rig.rows.size(), 0),
-      satisfiedOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0),
-      visited_(rig.rows.size(), 0) {
+      waitingOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0) {
     std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
     for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
         eachVertex(rig.rows[r], [&](std::uint32_t v) {
@@ -74,31 +73,30 @@ SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
     blockRows_ = Lists<std::uint32_t>(rows);
 }
 
+void SkinContactSolver::wait(std::uint32_t r, const Waiting& row) {
+    if (waitingOf_[r] == 0) {
+        waitingRows_.push_back(r);
+        waitingOf_[r] = static_cast<std::uint32_t>(waitingRows_.size());
+        waiting_.emplace_back();
+    }
+    waiting_[waitingOf_[r] - 1] = row;
+}
+
 /// Stores a row that is not violated; it need not be queried again before contacts have moved its point.
 void SkinContactSolver::addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane) {
-    if (satisfiedOf_[r] == 0) {
-        satisfiedRows_.push_back(r);
-        satisfiedOf_[r] = static_cast<std::uint32_t>(satisfiedRows_.size());
-        satisfied_.emplace_back();
-    }
-    Satisfied& row = satisfied_[satisfiedOf_[r] - 1];
-    row.plane = plane;
-    row.free = unseen;
+    float free = unseen;
     if (plane.found) {
         const float clear = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
         // Of a vertex in a body another side may be the nearest at once.
-        row.free = rig_.rows[r].insideAtRest ? std::min(clear, unseen) : clear;
+        free = rig_.rows[r].insideAtRest ? std::min(clear, unseen) : clear;
     }
-    row.place = constrainedPoint(scene, row.plane);
+    wait(r, {plane, constrainedPoint(scene, plane), free});
 }
 
-bool SkinContactSolver::moved(const SkinScene& scene, const Satisfied& row) const {
-    return (constrainedPoint(scene, row.plane) - row.place).squaredNorm() > row.free * row.free;
-}
-
-bool SkinContactSolver::mayBeViolated(const SkinScene& scene, std::uint32_t r) const {
-    return satisfiedOf_[r] == 0 ? mayTouch(rig_, scene, rig_.rows[r])
-                                : moved(scene, satisfied_[satisfiedOf_[r] - 1]);
+bool SkinContactSolver::mayBeViolated(const SkinScene& scene, const Waiting& row) const {
+    if (row.free < 0) return true;
+    return displaced(row.plane) &&
+           (constrainedPoint(scene, row.plane) - row.place).squaredNorm() > row.free * row.free;
 }
 
 void SkinContactSolver::undoPushes(SkinScene& scene) {
@@ -165,29 +163,20 @@ void SkinContactSolver::addDeepest() {
     std::sort(violated_.begin(), violated_.end(), [](const Violated& a, const Violated& b) {
         return std::tie(a.key, a.plane.gap, a.row) < std::tie(b.key, b.plane.gap, b.row);
     });
-    for (std::size_t k = 0; k < violated_.size(); ++k) {
-        const std::uint32_t r = violated_[k].row;
-        if (k > 0 && violated_[k].key == violated_[k - 1].key) {
-            deferred_.push_back(r);
-            isDeferred_[r] = 1;
-            continue;
-        }
-        addPlane(r, violated_[k].plane);
-    }
+    for (std::size_t k = 0; k < violated_.size(); ++k)
+        if (k == 0 || violated_[k].key != violated_[k - 1].key) addPlane(violated_[k].row, violated_[k].plane);
     violated_.clear();
 }
 
 void SkinContactSolver::clear() {
     for (const std::uint32_t r : rows_) planeOf_[r] = 0;
-    for (const std::uint32_t r : satisfiedRows_) satisfiedOf_[r] = 0;
+    for (const std::uint32_t r : waitingRows_) waitingOf_[r] = 0;
     rows_.clear();
-    satisfiedRows_.clear();
+    waitingRows_.clear();
     planes_.clear();
     violated_.clear();
-    satisfied_.clear();
+    waiting_.clear();
     pushes_.clear();
-    deferred_.clear();
-    isDeferred_.assign(rig_.rows.size(), 0);
 }
 
 SkinPlane SkinContactSolver::timedQuery(const SkinScene& scene, const SkinRow& row) {
@@ -200,10 +189,9 @@ SkinPlane SkinContactSolver::timedQuery(const SkinScene& scene, const SkinRow& r
 
 void SkinContactSolver::query(const SkinScene& scene, std::uint32_t r) {
     const SkinPlane plane = timedQuery(scene, rig_.rows[r]);
-    if (plane.found && plane.gap < 0)
-        violated_.push_back({selectionKey(rig_.rows[r], plane), r, plane});
-    else
-        addSatisfied(scene, r, plane);
+    if (!plane.found || plane.gap >= 0) return addSatisfied(scene, r, plane);
+    violated_.push_back({selectionKey(rig_.rows[r], plane), r, plane});
+    wait(r, {});
 }
 
 /// Queries all rows that may touch, with the skin as muscles and bones carry it.
@@ -239,29 +227,14 @@ float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
         }
         lack = std::max(lack, -planes_[planeOf_[r] - 1].gap);
     }
-    for (std::size_t k = 0, count = satisfied_.size(); k < count; ++k) {
-        const std::uint32_t r = satisfiedRows_[k];
-        if (planeOf_[r] == 0 && isDeferred_[r] == 0 && displaced(satisfied_[k].plane) &&
-            moved(scene, satisfied_[k]))
-            query(scene, r);
-    }
-    ++pass_;
+    for (std::size_t k = 0, count = waiting_.size(); k < count; ++k)
+        if (planeOf_[waitingRows_[k]] == 0 && mayBeViolated(scene, waiting_[k])) query(scene, waitingRows_[k]);
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
-        for (const std::uint32_t r : blockRows_[b]) {
-            if (visited_[r] == pass_) continue; // it has vertices in several blocks
-            visited_[r] = pass_;
-            if (planeOf_[r] == 0 && satisfiedOf_[r] == 0 && isDeferred_[r] == 0 && displaced(rig_.rows[r]) &&
-                mayTouch(rig_, scene, rig_.rows[r]))
+        for (const std::uint32_t r : blockRows_[b])
+            if (waitingOf_[r] == 0 && displaced(rig_.rows[r]) && mayTouch(rig_, scene, rig_.rows[r]))
                 query(scene, r);
-        }
     }
-    std::erase_if(deferred_, [&](std::uint32_t r) {
-        if (!mayBeViolated(scene, r)) return false;
-        isDeferred_[r] = 0;
-        query(scene, r);
-        return true;
-    });
     return lack;
 }
 

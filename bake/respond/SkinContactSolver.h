@@ -26,11 +26,12 @@ public:
     bool pushed(std::size_t block) const { return pushed_[block] != 0; }
 
 private:
-    /// A row that was queried in this update and is not violated.
-    struct Satisfied {
+    /// A row that was queried in this update, and of which no plane was made.
+    struct Waiting {
         SkinPlane plane;
-        Eigen::Vector3f place; ///< its constrained point at that time
-        float free = 0;        ///< by how much the point may move before the row is queried again
+        Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< its constrained point at that time
+        float free = -1; ///< by how much the point may move before the row is queried again; negative: it is
+                         ///< violated, and waits for what the push of a deeper one beside it does
     };
     /// A row that was queried and is violated. Of those with the same key the deepest becomes a plane.
     struct Violated {
@@ -44,8 +45,8 @@ private:
     void query(const SkinScene& scene, std::uint32_t r);
     SkinPlane timedQuery(const SkinScene& scene, const SkinRow& row);
     void addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane);
-    bool moved(const SkinScene& scene, const Satisfied& row) const;
-    bool mayBeViolated(const SkinScene& scene, std::uint32_t r) const;
+    void wait(std::uint32_t r, const Waiting& row);
+    bool mayBeViolated(const SkinScene& scene, const Waiting& row) const;
     bool displaced(const SkinPlane& plane) const;
     bool displaced(const SkinRow& row) const;
     void findDisplaced(const SkinScene& scene);
@@ -66,17 +67,13 @@ private:
     std::vector<std::uint32_t> rows_; ///< row of each of planes_
     std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + the index of its latest in planes_, 0: none
     std::vector<Violated> violated_;
-    std::vector<Satisfied> satisfied_;
-    std::vector<std::uint32_t> satisfiedRows_; ///< row of each of satisfied_
-    std::vector<std::uint32_t> satisfiedOf_;   ///< #rows: 1 + its index in satisfied_, 0: none
-    std::vector<std::uint32_t> deferred_;      ///< violated rows with a key of which another one was deeper
-    std::vector<char> isDeferred_;             ///< #rows
-    std::vector<char> pushed_;                 ///< #blocks: contacts may have displaced vertices of it
-    std::vector<char> displaced_;              ///< #touched: contacts have displaced the vertex
-    float farthest_ = 0;                       ///< largest of these displacements, run-time length
-    Lists<std::uint32_t> blockRows_;           ///< per block: rows about its vertices
-    std::vector<std::uint32_t> visited_;       ///< #rows: the last pass over blocks that came to it
-    std::uint32_t pass_ = 0;
+    std::vector<Waiting> waiting_;
+    std::vector<std::uint32_t> waitingRows_; ///< row of each of waiting_
+    std::vector<std::uint32_t> waitingOf_;   ///< #rows: 1 + its index in waiting_, 0: none
+    std::vector<char> pushed_;               ///< #blocks: contacts may have displaced vertices of it
+    std::vector<char> displaced_;            ///< #touched: contacts have displaced the vertex
+    float farthest_ = 0;                     ///< largest of these displacements, run-time length
+    Lists<std::uint32_t> blockRows_;         ///< per block: rows about its vertices
 };
 
 } // namespace tss

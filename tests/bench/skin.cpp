@@ -1,6 +1,7 @@
-// A skin of a whole head over thirteen muscles that all move at once: bench_skin [FRAMES, 240 [FILE]]. Prints
-// the processor time of an update, by the size of the skin. With FILE the largest scene, baked, goes there,
-// to be played in osgviewer.
+// A skin of a whole head over thirteen muscles that all move at once: bench_skin [FRAMES, 240 [--save FILE]].
+// Prints the processor time of an update, by the size of the skin. The largest scene, baked, goes to FILE, to
+// be played in osgviewer, or measured alone: bench_skin FRAMES FILE. Instructions an update are what two such
+// runs under callgrind differ by, per frame.
 #include "bake/pipeline/Bake.h"
 #include "bake/play/SkinSetup.h"
 #include "bake/respond/SkinResponse.h"
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string_view>
 
 namespace {
 
@@ -44,8 +46,7 @@ double cpuSeconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void measure(const tss::SceneModel& scene, int frames) {
-    const tss::SkinModel& skin = scene.skins.front();
+void measure(const tss::SceneModel& scene, const tss::SkinModel& skin, int frames) {
     double start = cpuSeconds();
     tss::SkinResponse response(tss::skinRig(scene, skin));
     const double loading = cpuSeconds() - start;
@@ -74,13 +75,19 @@ void measure(const tss::SceneModel& scene, int frames) {
 
 int main(int count, char** arguments) {
     const int frames = count > 1 ? std::atoi(arguments[1]) : 240;
-    if (frames < 1) {
-        std::fprintf(stderr, "usage: bench_skin [FRAMES [FILE]]\n");
+    const bool saves = count == 4 && std::string_view(arguments[2]) == "--save";
+    if (frames < 1 || count > 4 || (count == 4 && !saves)) {
+        std::fprintf(stderr, "usage: bench_skin [FRAMES [--save FILE]]\n       bench_skin FRAMES BAKED\n");
         return 2;
+    }
+    if (count == 3) {
+        const tss::SceneModel scene = tss::loadScene(arguments[2]);
+        for (const tss::SkinModel& skin : scene.skins) measure(scene, skin, frames);
+        return 0;
     }
     for (const doghead::Detail& detail : {doghead::Detail{1.6, 0.4}, {0.9, 0.06}, {0.6, 0.02}}) {
         const tss::SceneModel scene = bakedFace(detail);
-        measure(scene, frames);
-        if (count > 2) tss::saveScene(scene, arguments[2]); // the last one stays
+        measure(scene, scene.skins.front(), frames);
+        if (saves) tss::saveScene(scene, arguments[3]); // the last one stays
     }
 }
