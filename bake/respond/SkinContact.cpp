@@ -25,9 +25,6 @@ namespace {
 constexpr float leastFacing = 0.1f, fullFacing = 0.5f;
 /// Most triangles that a walk over a surface visits: enough to slide over a tenth of a fine one.
 constexpr int walkSteps = 40;
-/// Contact with a bone is sought up to this depth, the larger of a multiple of the skin's radius and a
-/// run-time length; it fades out over the last quarter of it.
-constexpr float boneReach = 12, boneReachOfSize = 0.1f;
 /// A part of the skin behind a vertex at rest is an obstacle up to a depth of this share of their distance
 /// then, and none from twice that on.
 constexpr float ownLayer = 0.25f;
@@ -132,13 +129,11 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (row.fromOutside) own = -own;
     SurfacePoint hit;
     const Vec3f motion = motionSinceRest(rig, scene, row);
-    const float reach = std::max(boneReach * rig.radius, boneReachOfSize);
     if (body.bone()) {
         int first = rig.starts[row.first];
         if (!row.insideAtRest) first = body.locator->entered((x - motion).cast<double>(), x.cast<double>());
         if (first < 0) return plane;
-        // Beyond this depth entryTrust() is 0.
-        const float range = std::min(reach, 2 * (motion.norm() - row.offset));
+        const float range = 2 * (motion.norm() - row.offset); // beyond this depth entryTrust() is 0
         hit = nearestOf(body, x, range, own, row.facing, first);
     } else {
         const Move* surface = scene.surface.data() + body.first;
@@ -162,7 +157,6 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         float most = motion.norm() - row.offset;
         if (!body.bone()) most = std::min(most, std::max(roomAt(body, hit), -row.offset));
         trust *= entryTrust(away.norm(), most);
-        if (body.bone()) trust *= 1 - smoothStep(4 * away.norm() / reach - 3);
     }
     if (!(trust > 0)) return plane;
     if (row.flipped) {
