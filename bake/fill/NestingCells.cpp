@@ -89,8 +89,7 @@ NestingVerdict NestingExaminer::examine(const NestingCell& given) const {
     return result;
 }
 
-bool NestingExaminer::leadsInside(const NestingCell& from, const NestingPart& part,
-                                  std::uint64_t seed) const {
+bool NestingExaminer::leadsInside(const NestingCell& from, NestingPart part, std::uint64_t seed) const {
     constexpr int mostSteps = 2000, patience = 12;
     const Motion& motion = rates_.motion();
     std::vector<double> q(motion.dofs.size());
@@ -124,16 +123,22 @@ bool NestingExaminer::leadsInside(const NestingCell& from, const NestingPart& pa
     return false;
 }
 
-double NestingExaminer::sticksOut(const NestingPart& part, const Pose& at, double enough) const {
+double NestingExaminer::sticksOut(NestingPart& part, const Pose& at, double enough) const {
     const NestingQuestion& question = questions_[part.question];
+    const PartWitnesses& witnesses = question.parts[part.part];
+    const auto count = static_cast<std::uint32_t>(witnesses.size()), first = part.witness;
     const Pose placed = question.outerMoves ? at.inverse() : at;
     double farthest = -std::numeric_limits<double>::infinity();
-    for (const Witness& witness : question.parts[part.part]) {
-        if (witness.radius > 0) continue;
-        const Vec3 place = placed * witness.centre;
+    for (std::uint32_t i = 0; i < count && farthest < enough; ++i) {
+        const std::uint32_t number = (first + i) % count;
+        if (witnesses[number].radius > 0) continue;
+        const Vec3 place = placed * witnesses[number].centre;
         const double distance = question.outer.boundary().distance(place);
-        farthest = std::max(farthest, question.outer.inside(place) ? -distance : distance);
-        if (farthest >= enough) break;
+        if (distance <= farthest) continue; // on whichever side
+        const double out = question.outer.inside(place) ? -distance : distance;
+        if (!(out > farthest)) continue;
+        farthest = out;
+        part.witness = number;
     }
     return farthest;
 }

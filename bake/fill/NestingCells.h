@@ -25,7 +25,7 @@ struct NestingQuestion {
 /// A part for which a cell is not yet decided.
 struct NestingPart {
     std::uint32_t question, part;
-    std::uint32_t witness; ///< the one that was outside in the cell before, tried first
+    std::uint32_t witness; ///< the one that was outside in the cell or at the pose before, tried first
 };
 
 struct NestingCell {
@@ -53,12 +53,12 @@ public:
     /// Whether random steps from the centre of a cell, each farther in than the one before, lead to a pose at
     /// which the part stands inside with the surfaces apart. Steps become shorter where none leads farther
     /// in.
-    bool leadsInside(const NestingCell& from, const NestingPart& part, std::uint64_t seed) const;
+    bool leadsInside(const NestingCell& from, NestingPart part, std::uint64_t seed) const;
 
 private:
     /// The largest signed distance of the part's vertices from the outer body, < 0: all are inside. No more
-    /// than the first that is `enough` or more.
-    double sticksOut(const NestingPart& part, const Pose& at, double enough) const;
+    /// than one that is `enough` or more. The part's witness becomes the one that has it.
+    double sticksOut(NestingPart& part, const Pose& at, double enough) const;
 
     /// Whether the part fits nowhere in the outer body, however it moves: it is longer, or its largest ball
     /// does not fit.
