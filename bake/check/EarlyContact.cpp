@@ -6,6 +6,7 @@
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/SampledSearch.h"
 #include "bake/table/EarlyBound.h"
+#include "bake/table/PreparedTable.h"
 #include "bake/table/Query.h"
 
 #include <algorithm>
@@ -35,23 +36,35 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
+/// A pair's table, and the same as it is asked at run time.
+struct AskedTable {
+    const Table& plain;
+    const PreparedTable& prepared;
+
+    /// As the plain query says, which looks at all tests where none touches: there the prepared table tells.
+    bool reports(const std::vector<double>& q) const {
+        if (withinLimits(plain.motion, q) && !prepared.hit(q.data())) return false;
+        return touches(plain, pose(plain.motion, q));
+    }
+};
+
 /// Whether contact is reported at one of the first steps from rest in a direction: at 1/1024 to 1/128 of the
 /// range of each DOF. direction: -1, 0 or 1 for each DOF. Nothing where the steps leave the limits.
-std::optional<bool> isBlocked(const Table& table, const Motion& motion, const std::vector<double>& rest,
+std::optional<bool> isBlocked(const AskedTable& table, const Motion& motion, const std::vector<double>& rest,
                               const std::vector<int>& direction) {
     for (const double step : {1.0 / 1024, 1.0 / 512, 1.0 / 256, 1.0 / 128}) {
         std::vector<double> q = rest;
         for (std::size_t k = 0; k < q.size(); ++k)
             q[k] += step * direction[k] * (motion.dofs[k].upper - motion.dofs[k].lower);
         if (!withinLimits(motion, q, 0)) return std::nullopt;
-        if (query(table, q).hit()) return true;
+        if (table.reports(q)) return true;
     }
     return false;
 }
 
 /// Whether every small step from rest within the limits is reported as contact. Tries all combinations of
 /// directions of the DOFs; with many DOFs one DOF at a time.
-bool isHeldAtRest(const Table& table, const Motion& motion, const std::vector<double>& rest) {
+bool isHeldAtRest(const AskedTable& table, const Motion& motion, const std::vector<double>& rest) {
     constexpr std::size_t most = 5; // DOFs: 242 directions
     const std::size_t dofs = rest.size();
     std::vector<std::vector<int>> directions;
@@ -88,6 +101,12 @@ std::vector<std::vector<double>> spreadPoses(const Motion& motion) {
 } // namespace
 
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair) {
+    if (!pair.table) return std::nullopt;
+    return measureEarlyContact(scene, pair, PreparedTable(*pair.table));
+}
+
+std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair,
+                                                const PreparedTable& prepared) {
     const TriangleMesh &meshA = scene.bodies[pair.bodyA].mesh, &meshB = scene.bodies[pair.bodyB].mesh;
     if (!pair.table || meshA.empty() || meshB.empty()) return std::nullopt;
     const double early = earlyOfTable(*pair.table).value_or(0), epsilon = pair.table->epsilon;
@@ -99,8 +118,8 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     const std::vector<double> rest = restValues(motion);
     result.atRest = clearanceAtRest(meshA, meshB, motion);
     result.close = result.atRest < std::max(size, early) / 1000;
-    const Table& table = *pair.table;
-    const bool contact = query(table, rest).hit();
+    const AskedTable table{*pair.table, prepared};
+    const bool contact = table.reports(rest);
     result.restReported = !result.close && contact;
     result.held = !contact && isHeldAtRest(table, motion, rest);
 
@@ -108,7 +127,7 @@ std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const P
     std::vector<double> distances(poses.size(), early);
     std::vector<char> reported(poses.size());
     parallelFor(poses.size(), [&](std::size_t i) {
-        reported[i] = query(table, poses[i]).hit();
+        reported[i] = table.reports(poses[i]);
         // Where no contact is reported, and none can be missed, the surfaces are apart: their distance is
         // only needed later.
         if (reported[i] || pair.table->boundMiss != 0)

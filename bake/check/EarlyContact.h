@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/model/SceneModel.h"
+#include "bake/table/PreparedTable.h"
 
 #include <algorithm>
 #include <optional>
@@ -31,7 +32,10 @@ struct EarlyContact {
     bool stuck() const { return close && 20 * freePoses < poses; }
 };
 
-/// Nothing for a pair without a table or a table without a bound.
+/// Nothing for a pair without a table or a table without a bound. prepared: its table, where there is one
+/// already.
 std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair);
+std::optional<EarlyContact> measureEarlyContact(const SceneModel& scene, const Pair& pair,
+                                                const PreparedTable& prepared);
 
 } // namespace tss

@@ -40,6 +40,19 @@ QueryResult nearestOf(const TableTests& tests, const Pose& pose, std::size_t cou
     return result;
 }
 
+/// Calls visit(row, test, gap) for every test, until it returns false.
+template <class Visit>
+void eachGap(const Table& table, const Pose& pose, const Visit& visit) {
+    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i) {
+        const Vec3 centre = pose.inverse(Eigen::Isometry) * table.a[i].centre;
+        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
+            const Sphere& b = table.b[table.columns[k]];
+            const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
+            if (!visit(i, k, (b.centre - centre).norm() - table.a[i].radius - b.radius - rest)) return;
+        }
+    }
+}
+
 } // namespace
 
 double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse) {
@@ -60,24 +73,24 @@ QueryResult query(const Table& table, const Pose& pose) {
     QueryResult result;
     result.gap = std::numeric_limits<double>::infinity();
     std::uint32_t bestRow = 0;
-    for (std::uint32_t i = 0; i + 1 < table.rowOffsets.size(); ++i) {
-        const Vec3 centre = pose.inverse(Eigen::Isometry) * table.a[i].centre;
-        for (std::uint32_t k = table.rowOffsets[i]; k < table.rowOffsets[i + 1]; ++k) {
-            const Sphere& b = table.b[table.columns[k]];
-            const double rest = table.restGaps.empty() ? 0 : table.restGaps[k];
-            const double gap = (b.centre - centre).norm() - table.a[i].radius - b.radius - rest;
-            if (gap < result.gap) {
-                result.gap = gap;
-                result.test = static_cast<int>(k);
-                bestRow = i;
-            }
-        }
-    }
+    eachGap(table, pose, [&](std::uint32_t row, std::uint32_t test, double gap) {
+        if (!(gap < result.gap)) return true;
+        result.gap = gap;
+        result.test = static_cast<int>(test);
+        bestRow = row;
+        return true;
+    });
     if (result.test >= 0) {
         const Sphere& b = table.b[table.columns[result.test]];
         contact(table.a[bestRow], pose * b.centre, b.radius, result);
     }
     return result;
+}
+
+bool touches(const Table& table, const Pose& pose) {
+    bool any = false;
+    eachGap(table, pose, [&](std::uint32_t, std::uint32_t, double gap) { return !(any = gap <= 0); });
+    return any;
 }
 
 QueryResult query(const Table& table, std::span<const double> q) {

@@ -17,6 +17,9 @@ struct QueryResult {
 QueryResult query(const Table& table, const Pose& pose);
 QueryResult query(const Table& table, std::span<const double> q);
 
+/// Whether query() at the pose has a hit: no farther than the first test that touches.
+bool touches(const Table& table, const Pose& pose);
+
 /// The gap of one test, to the bit as the plain query has it. inverse: of the pose.
 double queryGap(const TableTests& tests, std::uint32_t test, const Pose& inverse);
 

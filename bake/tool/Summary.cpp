@@ -81,8 +81,7 @@ void addBounded(Json& json) {
 
 /// How the run time asks the table, how ill-conditioned that is, and the gaps where rounding may turn the
 /// verdict.
-void addKernel(Json& json, const Table& table) {
-    const PreparedTable prepared(table);
+void addKernel(Json& json, const PreparedTable& prepared) {
     json["kernel"] = {{"form", name(prepared.form())},
                       {"precision", name(prepared.precision())},
                       {"features", prepared.kernels().featureCount()},
@@ -99,8 +98,8 @@ void addKernel(Json& json, const Table& table) {
 }
 
 /// What the meshes do where the table says contact already.
-void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair) {
-    const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
+void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair, const PreparedTable& prepared) {
+    const std::optional<EarlyContact> early = measureEarlyContact(scene, pair, prepared);
     if (!early) return;
     json["clearanceAtRest"] = early->atRest;
     json["earlyContact"] = {{"poses", early->poses},
@@ -130,8 +129,9 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"seconds", nullptr}};
     if (pair.table) {
         addTable(json, *pair.table);
-        addKernel(json, *pair.table);
-        addEarlyContact(json, scene, pair);
+        const PreparedTable prepared(*pair.table);
+        addKernel(json, prepared);
+        addEarlyContact(json, scene, pair, prepared);
         const auto atRest = pair.settings.find("at-rest");
         json["ignoresRest"] = atRest != pair.settings.end() && atRest->second == "ignore";
         json["restRegion"] = regionOf(pair.table->restRegion, scene, pair);

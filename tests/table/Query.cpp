@@ -41,8 +41,26 @@ TEST_CASE("a test with a rest gap is contact only below it") {
     CHECK(query(t, below).hit());
 }
 
+TEST_CASE("tests are asked for contact as the whole table answers") {
+    int hits = 0, free = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        Random random(seed);
+        CAPTURE(seed);
+        const Table t = random_table::anyTable(random);
+        for (int i = 0; i < 20; ++i) {
+            const Pose at = pose(t.motion, random_table::values(random, t.motion));
+            const bool hit = query(t, at).hit();
+            REQUIRE(touches(t, at) == hit);
+            ++(hit ? hits : free);
+        }
+    }
+    CHECK(hits > 100);
+    CHECK(free > 100);
+}
+
 TEST_CASE("an empty table never hits and names no test") {
     const QueryResult r = query(Table(), Pose::Identity());
+    CHECK_FALSE(touches(Table(), Pose::Identity()));
     CHECK(r.gap == std::numeric_limits<double>::infinity());
     CHECK(r.test == -1);
     CHECK_FALSE(r.hit());
