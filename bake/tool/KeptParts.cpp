@@ -2,6 +2,7 @@
 
 #include "bake/scene/SceneFile.h"
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <utility>
@@ -10,8 +11,9 @@ namespace tss::tool {
 
 namespace {
 
-/// Seconds between two writes of the incomplete file: what may be lost where the program is killed.
-constexpr double keepEvery = 60;
+/// Seconds between two writes of the incomplete file, at least, and times what a write takes, so that a large
+/// one is not written most of the time: what may be lost where the program is killed.
+constexpr double keepEvery = 60, keepTimes = 30;
 
 volatile std::sig_atomic_t received = 0; ///< the signal that came; 0: none
 
@@ -60,7 +62,8 @@ std::string incompleteName(const std::string& output, int number) {
 
 KeptParts::KeptParts(SceneModel& scene, const std::string& input, std::string output, BakeTimes times,
                      const Console& console)
-    : scene_(scene), output_(std::move(output)), times_(std::move(times)), console_(console) {
+    : scene_(scene), output_(std::move(output)), times_(std::move(times)), console_(console),
+      nextKept_(keepEvery) {
     std::error_code none;
     kept_ = std::filesystem::equivalent(input, incompleteName(output_), none);
     incomplete_ = kept_ ? incompleteName(output_) : freeName(output_);
@@ -96,14 +99,16 @@ void KeptParts::done(const PairReport& report) {
         console_.say(report.path + ": " + note);
         notes_[report.path].push_back(note);
     }
-    if (sinceKept_.seconds() < keepEvery) return;
-    sinceKept_.restart();
+    if (sinceKept_.seconds() < nextKept_) return;
+    const Stopwatch writing;
     try {
         writeTo(incomplete_);
         kept_ = true;
     } catch (const InputError& error) { // there may be room again at the end
         console_.say(std::string("what is baked so far could not be kept: ") + error.what());
     }
+    nextKept_ = std::max(keepEvery, keepTimes * writing.seconds());
+    sinceKept_.restart();
 }
 
 std::string KeptParts::write() {

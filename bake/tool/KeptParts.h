@@ -50,6 +50,7 @@ private:
     bool holds_ = false; ///< signals are noted
     bool kept_ = false;  ///< the incomplete file is this bake's own
     Stopwatch sinceKept_;
+    double nextKept_; ///< seconds after which it is written again
 };
 
 } // namespace tss::tool
