@@ -55,6 +55,14 @@ private:
     Sha256 hash_;
 };
 
+std::string meshHash(const SceneModel& scene, int body, MeshHashes* known) {
+    std::string own;
+    if (known) known->resize(scene.bodies.size());
+    std::string& text = known ? (*known)[body] : own;
+    if (text.empty()) text = PartHash().add(scene.bodies[body].mesh).text();
+    return text;
+}
+
 std::string framesHash(const Motion& motion) {
     PartHash hash;
     hash.add(motion.base);
@@ -151,11 +159,10 @@ void refuse(const std::string& why, const std::string& path, const std::string& 
 
 } // namespace
 
-std::string sourceHash(const SceneModel& scene, const Pair& pair) {
+std::string sourceHash(const SceneModel& scene, const Pair& pair, MeshHashes* meshes) {
     const Motion motion = pairMotion(scene, pair);
-    return joined({PartHash().add(scene.bodies[pair.bodyA].mesh).text(),
-                   PartHash().add(scene.bodies[pair.bodyB].mesh).text(), framesHash(motion),
-                   limitsHash(motion), PartHash().add(pair.settings).text()});
+    return joined({meshHash(scene, pair.bodyA, meshes), meshHash(scene, pair.bodyB, meshes),
+                   framesHash(motion), limitsHash(motion), PartHash().add(pair.settings).text()});
 }
 
 std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
@@ -182,9 +189,9 @@ std::string sourceHash(const SceneModel& scene, const SkinModel& skin) {
                    PartHash().add(skin.settings).text()});
 }
 
-std::string staleness(const SceneModel& scene, const Pair& pair) {
+std::string staleness(const SceneModel& scene, const Pair& pair, MeshHashes* meshes) {
     if (!pair.table && !pair.proof) return "";
-    std::string changed = difference(pair.sourceHash, sourceHash(scene, pair),
+    std::string changed = difference(pair.sourceHash, sourceHash(scene, pair, meshes),
                                      {"the mesh of " + scene.bodies[pair.bodyA].path,
                                       "the mesh of " + scene.bodies[pair.bodyB].path, "the joint",
                                       "the limits", "the settings"});
@@ -209,7 +216,8 @@ void requireFresh(const SceneModel& scene, const Pair& pair, const std::string& 
 }
 
 void requireFresh(const SceneModel& scene, const std::string& fileName) {
-    for (const Pair& pair : scene.pairs) requireFresh(scene, pair, fileName);
+    MeshHashes meshes;
+    for (const Pair& pair : scene.pairs) refuse(staleness(scene, pair, &meshes), pair.path, fileName);
     for (const SkinModel& skin : scene.skins) refuse(staleness(scene, skin), skin.path, fileName);
 }
 

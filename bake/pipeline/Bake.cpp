@@ -35,12 +35,14 @@ void addSettings(Item& item, const BakeRequest& request) {
     for (const auto& [key, text] : request.given) item.settings[key] = text;
 }
 
-template <class Item>
-bool isToBake(const SceneModel& scene, Item item, const BakeRequest& request) {
+/// The item is asked for, and stale() says of it with the settings given that its table does not fit, where
+/// that matters.
+template <class Item, class Stale>
+bool isToBake(Item item, const BakeRequest& request, const Stale& stale) {
     if (!isWanted(request, item.path)) return false;
     if (!request.onlyMissing || !hasTable(item)) return true;
     addSettings(item, request);
-    return !staleness(scene, item).empty();
+    return !stale(item).empty();
 }
 
 /// Runs one bake and times it; an input error is told with the prim that it belongs to.
@@ -70,11 +72,12 @@ public:
 
     std::vector<PairReport> run() {
         if (const auto refused = refusedByBake(scene_, request_); !refused.empty()) throw refused.front();
+        paths_ = pathsToBake(scene_, request_);
         // Those that are never reached keep what was asked for.
         for (Pair& pair : scene_.pairs)
-            if (toBake(scene_, pair, request_)) addSettings(pair, request_);
+            if (isToBake(pair)) addSettings(pair, request_);
         for (SkinModel& skin : scene_.skins)
-            if (toBake(scene_, skin, request_)) addSettings(skin, request_);
+            if (isToBake(skin)) addSettings(skin, request_);
         each(scene_.pairs, [&](Pair& pair, PairReport& report) {
             BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
             options.effort = request_.effort;
@@ -94,10 +97,15 @@ private:
         return over_;
     }
 
+    template <class Item>
+    bool isToBake(const Item& item) const {
+        return std::ranges::find(paths_, item.path) != paths_.end();
+    }
+
     template <class Items, class Work>
     void each(Items& items, const Work& work) {
         for (auto& item : items)
-            if (!interrupted() && toBake(scene_, item, request_)) one(item, work);
+            if (!interrupted() && isToBake(item)) one(item, work);
     }
 
     template <class Item, class Work>
@@ -123,24 +131,21 @@ private:
     const BakeRequest& request_;
     bool over_ = false;
     const Progress progress_;
+    std::vector<std::string> paths_; ///< of what is baked
     std::vector<PairReport> reports_;
 };
 
 } // namespace
 
-bool toBake(const SceneModel& scene, const Pair& pair, const BakeRequest& request) {
-    return isToBake(scene, pair, request);
-}
-bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& request) {
-    return isToBake(scene, skin, request);
-}
-
 std::vector<std::string> pathsToBake(const SceneModel& scene, const BakeRequest& request) {
     std::vector<std::string> paths;
+    MeshHashes meshes;
+    const auto stalePair = [&](const Pair& pair) { return staleness(scene, pair, &meshes); };
+    const auto staleSkin = [&](const SkinModel& skin) { return staleness(scene, skin); };
     for (const Pair& pair : scene.pairs)
-        if (toBake(scene, pair, request)) paths.push_back(pair.path);
+        if (isToBake(pair, request, stalePair)) paths.push_back(pair.path);
     for (const SkinModel& skin : scene.skins)
-        if (toBake(scene, skin, request)) paths.push_back(skin.path);
+        if (isToBake(skin, request, staleSkin)) paths.push_back(skin.path);
     return paths;
 }
 

@@ -38,10 +38,6 @@ void expectPaths(const SceneModel& scene, const std::vector<std::string>& paths,
 /// Whether a request is about the pair or skin of this prim path.
 bool isWanted(const BakeRequest& request, const std::string& path);
 
-/// Whether bake() would make this pair's or skin's table.
-bool toBake(const SceneModel& scene, const Pair& pair, const BakeRequest& request);
-bool toBake(const SceneModel& scene, const SkinModel& skin, const BakeRequest& request);
-
 /// The prim paths of all pairs and skins for which bake() would make a table.
 std::vector<std::string> pathsToBake(const SceneModel& scene, const BakeRequest& request);
 

@@ -10,6 +10,7 @@
 #include "bake/respond/SkinRig.h"
 #include "bake/table/RoundingBand.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -102,12 +103,12 @@ std::vector<InputError> refusedByBake(const SceneModel& scene, const BakeRequest
     const auto options = [&](const BakeSettings& ofScene) {
         return optionsFor(ofScene, request.given, scene.metersPerUnit);
     };
+    const std::vector<std::string> paths = pathsToBake(scene, request);
+    const auto toBake = [&](const auto& item) { return std::ranges::find(paths, item.path) != paths.end(); };
     for (const Pair& pair : scene.pairs)
-        if (toBake(scene, pair, request))
-            collect(refused, pair, [&] { checkPair(scene, pair, options(pair.settings)); });
+        if (toBake(pair)) collect(refused, pair, [&] { checkPair(scene, pair, options(pair.settings)); });
     for (const SkinModel& skin : scene.skins)
-        if (toBake(scene, skin, request))
-            collect(refused, skin, [&] { checkSkin(scene, skin, options(skin.settings)); });
+        if (toBake(skin)) collect(refused, skin, [&] { checkSkin(scene, skin, options(skin.settings)); });
     return refused;
 }
 

@@ -19,13 +19,15 @@ void addFaults(const SceneModel& scene, Problems& problems,
         const int entry = index.find(path);
         if (!why.empty()) problems.add(entry < 0 ? Place{"", path} : index.entries[entry].place, why);
     };
-    for (const Pair& pair : scene.pairs) add(pair.path, staleness(scene, pair));
+    MeshHashes meshes;
+    for (const Pair& pair : scene.pairs) add(pair.path, staleness(scene, pair, &meshes));
     for (const SkinModel& skin : scene.skins) add(skin.path, staleness(scene, skin));
     if (!more) return;
     for (const InputError& error : more(scene)) add(error.where.path, error.message);
 }
 
 std::vector<LocatedError> located(const std::vector<InputError>& errors, std::string_view text) {
+    if (errors.empty()) return {}; // then the text need not be gone through again
     std::vector<std::string> pointers;
     pointers.reserve(errors.size());
     for (const InputError& error : errors) pointers.push_back(error.where.pointer);

@@ -115,9 +115,7 @@ void addEarlyContact(Json& json, const SceneModel& scene, const Pair& pair, cons
                             {"shareThen", early->tolerance > 0 ? Json(early->shareThen) : Json()}};
 }
 
-} // namespace
-
-Json summary(const SceneModel& scene, const Pair& pair) {
+Json summary(const SceneModel& scene, const Pair& pair, MeshHashes& meshes) {
     Json json = {{"path", pair.path},
                  {"bodyA", scene.bodies[pair.bodyA].path},
                  {"bodyB", scene.bodies[pair.bodyB].path},
@@ -125,7 +123,7 @@ Json summary(const SceneModel& scene, const Pair& pair) {
                  {"joint", describeDofs(pairMotion(scene, pair), scene.metersPerUnit)},
                  {"baked", pair.table || pair.proof},
                  {"neverCollides", pair.proof != nullptr},
-                 {"stale", staleness(scene, pair)},
+                 {"stale", staleness(scene, pair, &meshes)},
                  {"seconds", nullptr}};
     if (pair.table) {
         addTable(json, *pair.table);
@@ -166,9 +164,12 @@ Json summary(const SceneModel& scene, const SkinModel& skin) {
     return json;
 }
 
+} // namespace
+
 Json summary(const SceneModel& scene) {
     Json json = {{"pairs", Json::array()}, {"skins", Json::array()}};
-    for (const Pair& pair : scene.pairs) json["pairs"].push_back(summary(scene, pair));
+    MeshHashes meshes;
+    for (const Pair& pair : scene.pairs) json["pairs"].push_back(summary(scene, pair, meshes));
     for (const SkinModel& skin : scene.skins) json["skins"].push_back(summary(scene, skin));
     json["metersPerUnit"] = scene.metersPerUnit;
     return json;

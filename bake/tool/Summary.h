@@ -4,11 +4,8 @@
 
 namespace tss::tool {
 
-/// The data of a pair or a skin for scripts (docs/TSS.md, --json). Unknown figures are null.
-Json summary(const SceneModel& scene, const Pair& pair);
-Json summary(const SceneModel& scene, const SkinModel& skin);
-
-/// pairs[] and skins[] of a scene.
+/// The data of a scene's pairs and skins for scripts (docs/TSS.md, --json): pairs[] and skins[]. Unknown
+/// figures are null.
 Json summary(const SceneModel& scene);
 
 /// The summary of a scene for people: one block of lines for each pair and skin (docs/TSS.md,
