@@ -7,8 +7,9 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-/// Of the skin's own surface, as SkinBody::strain is of a body's.
-constexpr float skinStrain = 0.25f;
+/// Share of a gap over which a vertex may come nearer to the skin before they are queried: beside the anchor
+/// skin that is stretched may have come the rest of the way.
+constexpr float skinShare = 0.5f;
 
 /// anchorOffset() as a vector of four with a 0 at the end, for vector instructions.
 inline Move anchorOffset4(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
@@ -78,10 +79,8 @@ float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow
 bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
     const SkinScene::Placed& placed = scene.bodies[row.body];
-    const float strain = row.kind == SkinContactKind::SkinOnBody ? placed.strain : skinStrain;
     const SkinClearance* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : placed.at.node);
-    // Beside the anchor a surface has moved further by its strain, over a distance of at most twice the gap.
-    float free = at->gap() * (1 - 2 * strain);
+    float free = row.kind == SkinContactKind::SkinOnBody ? at->gap() : skinShare * at->gap();
     // At rest no constraint is violated, so that a small motion may be ignored; a muscle's activation alone
     // may violate one.
     if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);

@@ -164,7 +164,8 @@ void SkinContactSolver::addDeepest() {
         return std::tie(a.key, a.plane.gap, a.row) < std::tie(b.key, b.plane.gap, b.row);
     });
     for (std::size_t k = 0; k < violated_.size(); ++k)
-        if (k == 0 || violated_[k].key != violated_[k - 1].key) addPlane(violated_[k].row, violated_[k].plane);
+        if (k == 0 || violated_[k].key != violated_[k - 1].key)
+            addPlane(violated_[k].row, violated_[k].plane);
     violated_.clear();
 }
 
@@ -228,7 +229,8 @@ float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
         lack = std::max(lack, -planes_[planeOf_[r] - 1].gap);
     }
     for (std::size_t k = 0, count = waiting_.size(); k < count; ++k)
-        if (planeOf_[waitingRows_[k]] == 0 && mayBeViolated(scene, waiting_[k])) query(scene, waitingRows_[k]);
+        if (planeOf_[waitingRows_[k]] == 0 && mayBeViolated(scene, waiting_[k]))
+            query(scene, waitingRows_[k]);
     for (std::size_t b = 0; b < pushed_.size(); ++b) {
         if (pushed_[b] == 0) continue;
         for (const std::uint32_t r : blockRows_[b])

@@ -10,8 +10,9 @@ namespace {
 /// Regularisation: this share of each diagonal element is added to it, so that the pushes of contradicting
 /// planes stay bounded.
 constexpr float regularisation = 0.003f;
-/// A push may move no vertex by more than this many times the largest violation of the planes coupled with
-/// it: pushes of contradicting planes would grow without bounds.
+/// A push may move its own point by no more than this many times the deepest violation before any push:
+/// pushes of contradicting planes would grow without bounds, and planes whose normals were updated where
+/// earlier pushes had displaced the skin too far demand too much.
 constexpr float mostPush = 15;
 
 } // namespace
@@ -67,17 +68,13 @@ void SkinPushes::addCouplings() {
             nodePlanes_.push_back({r, value, lastPlane_[node]});
             lastPlane_[node] = static_cast<std::uint32_t>(nodePlanes_.size()) - 1;
         }
-        float peak = 0;
-        for (const auto& [node, move] : column_[r]) {
-            peak = std::max(peak, std::abs(move));
+        for (const auto& [node, move] : column_[r])
             for (std::uint32_t o = lastPlane_[node]; o != none; o = nodePlanes_[o].previous) {
                 const NodePlane& other = nodePlanes_[o];
                 if (!summed_[other.plane]) coupled.push_back(other.plane);
                 summed_[other.plane] = 1;
                 sums_[other.plane] += move * other.weight;
             }
-        }
-        peak_.push_back(peak);
         std::sort(coupled.begin(), coupled.end());
         for (const std::uint32_t s : coupled) {
             if (s < r && sums_[s] != 0) before_.push_back({s, sums_[s]});
@@ -120,7 +117,6 @@ void SkinPushes::clear() {
     weights_.clear();
     column_.clear();
     self_.clear();
-    peak_.clear();
     before_.clear();
 }
 
@@ -141,20 +137,14 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
     upperBound_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
         const Eigen::Vector3f& normal = planes[r].normal;
-        Four asked = Four::Constant(std::max(demand_[r], 0.0f));
         for (std::uint32_t e = rowStart_[r]; e < rowStart_[r + 1]; ++e) {
             const std::uint32_t first = firstColumn_[e];
             const Four facing =
                 normal[0] * blockAt(normals_[0], first) +
                 (normal[1] * blockAt(normals_[1], first) + normal[2] * blockAt(normals_[2], first));
             matrix_[e] = coupling_[e] * facing;
-            asked = asked.max((coupling_[e] != 0).select(blockAt(demand_, first), Four::Zero()));
         }
-        // See mostPush. The peak of a column may be at another vertex than the plane's own. `deepest` limits
-        // the demand of planes whose normals were updated where earlier pushes had displaced the skin too
-        // far.
-        upperBound_[r] =
-            self_[r] > 0 ? mostPush * std::min(asked.maxCoeff(), deepest) / std::max(self_[r], peak_[r]) : 0;
+        upperBound_[r] = self_[r] > 0 ? mostPush * deepest / self_[r] : 0;
     }
     for (std::size_t r = 0; r < count; ++r) {
         planes[r].push = std::min(planes[r].push, upperBound_[r]);

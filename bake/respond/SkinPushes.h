@@ -61,7 +61,6 @@ private:
     Lists<SkinEntry> column_;  ///< per plane: displacement of nodes by a push of 1
     Lists<SkinEntry> before_;  ///< per plane: coupling with planes of lower index (symmetric)
     std::vector<float> self_;  ///< per plane: coupling with itself
-    std::vector<float> peak_;  ///< per plane: largest displacement of a node by a push of 1
     std::vector<NodePlane> nodePlanes_;
     std::vector<std::uint32_t> lastPlane_; ///< per node: last entry of its list in nodePlanes_, or `none`
 

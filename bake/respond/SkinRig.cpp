@@ -151,7 +151,6 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, s
         mesh.vertices = deformer.vertices(node);
         for (const Vec3& x : mesh.vertices) body.places.push_back(placeOf(rig, x));
         for (const Vec3& n : vertexNormals(mesh)) body.normals.push_back(toMove(n));
-        body.strain.push_back(body.strainOf(body.places.data() + body.places.size() - body.count));
     }
     if (!deformer.rigid()) {
         const TriangleMesh& rest = muscle.surface;
@@ -210,17 +209,6 @@ TriangleMesh meshOf(const std::vector<Move>& vertices, const std::vector<Tri>& t
     TriangleMesh mesh{{}, triangles};
     for (const Move& x : vertices) mesh.vertices.push_back(x.head<3>().cast<double>());
     return mesh;
-}
-
-float SkinBody::strainOf(const Move* now) const {
-    float most = 0;
-    for (const Tri& t : triangles)
-        for (int k = 0; k < 3; ++k) {
-            const int i = t[k], j = t[(k + 1) % 3];
-            const Move edge = rest[i] - rest[j], change = now[i] - now[j] - edge;
-            if (edge.norm() > 0) most = std::max(most, change.norm() / edge.norm());
-        }
-    return most;
 }
 
 Pose SkinRig::local(const Pose& pose) const {

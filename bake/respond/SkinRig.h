@@ -23,7 +23,6 @@ struct SkinBody {
     std::vector<double> nodes;         ///< rising activations at which it is tabulated; one: a bone
     std::vector<Move> rest;            ///< #count vertices at activation 0, in the skin's frame
     std::vector<Move> places, normals; ///< #nodes blocks of #count: vertices and unit normals
-    std::vector<float> strain;         ///< #nodes: strainOf() there
     std::vector<float> room; ///< of a muscle, #count: radius of the ball inside that touches it there at rest
     std::vector<std::uint32_t> blocks;                ///< blocks of skin vertices that it displaces
     int frame = -1;                                   ///< see SkinParameters::frames
@@ -33,8 +32,6 @@ struct SkinBody {
     std::shared_ptr<const ClosestPointQuery> locator; ///< on `mesh`
 
     bool bone() const { return mesh != nullptr; }
-    /// Largest relative change of an edge vector since rest. now: #count vertices.
-    float strainOf(const Move* now) const;
 };
 
 /// A body's vertex whose displacement is added to that of a skin vertex, times a share.

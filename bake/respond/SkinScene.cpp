@@ -18,7 +18,6 @@ void spanMuscle(const SkinBody& body, SkinScene::Placed& placed, SkinScene& scen
         scene.normals[body.first + v].head<3>() = normals[v].cast<float>();
         scene.moves[body.first + v].head<3>() += (swell * body.span->swelling()[v]).cast<float>();
     }
-    placed.strain = std::max(placed.strain, body.strainOf(scene.surface.data() + body.first));
 }
 
 /// Interpolates the surface at an activation. bones: of a muscle over several, their motions.
@@ -42,8 +41,6 @@ void placeSurface(const SkinBody& body, double activation, ChainMotion bones, Sk
         surfaceNormals[v] = mix(normals + from, normals + to, v);
         moves[v] = surface[v] - rest[v];
     }
-    placed.strain = body.strain[at.node];
-    if (at.t != 0) placed.strain = std::max(placed.strain, body.strain[at.node + 1]);
     if (!isAtRest(placed.bones)) spanMuscle(body, placed, scene);
 }
 

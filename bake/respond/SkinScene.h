@@ -14,8 +14,7 @@ struct SkinScene {
         Eigen::Vector3f shift = Eigen::Vector3f::Zero();              ///< body to skin, translation
         bool moved = false;                                           ///< turn and shift are not the identity
         ChainMotion bones;                                            ///< of a muscle over several
-        float strain = 0; ///< SkinBody::strainOf() the current surface
-        TrackPlace at;    ///< interpolation of the activation between the body's nodes
+        TrackPlace at; ///< interpolation of the activation between the body's nodes
 
         Eigen::Vector3f toSkin(const Eigen::Vector3f& x) const { return moved ? turn * x + shift : x; }
         Eigen::Vector3f toBody(const Eigen::Vector3f& x) const {
