@@ -103,7 +103,7 @@ struct SkinRig {
     bool inverted = false;               ///< the mesh is wound inwards; all members below are as if outwards
     std::vector<std::uint32_t> twins; ///< for each of the last vertices, duplicates along seams: the one at
                                       ///< the same position that it follows
-    std::vector<Tri> triangles;       ///< those of touched vertices only
+    std::vector<Tri> triangles;       ///< those of touched vertices only, by their first corners
     std::vector<Tri> across;          ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
     Lists<SkinFan> fans;              ///< per touched vertex; indices into vertices, then borderPlaces
 

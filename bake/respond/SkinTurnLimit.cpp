@@ -38,7 +38,20 @@ SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {}
 void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> blocks) {
     beside_.clear();
     const auto displaced = [&](int corner) { return blocks[corner / SkinRig::block] != 0; };
-    for (const Tri& corners : rig_.triangles) {
+    const auto firstBlock = [](const Tri& t) {
+        return static_cast<std::size_t>(t.minCoeff()) / SkinRig::block;
+    };
+    near_.assign(blocks.size(), 0); // blocks in which the first corners of displaced triangles are
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (blocks[b] != 0)
+            for (const std::uint32_t around : rig_.around[b]) near_[around] = 1;
+    for (auto at = rig_.triangles.begin(); at != rig_.triangles.end(); ++at) {
+        const std::size_t block = firstBlock(*at);
+        if (near_[block] == 0) { // on to the next block: they are sorted by their first corners
+            at = std::ranges::upper_bound(at, rig_.triangles.end(), block, {}, firstBlock) - 1;
+            continue;
+        }
+        const Tri& corners = *at;
         if (std::ranges::none_of(corners, displaced)) continue;
         const Edges edges = edgesOf(scene.carried, corners);
         Eigen::Vector3f outwards = Eigen::Vector3f::Zero();

@@ -34,6 +34,7 @@ private:
 
     const SkinRig& rig_;
     std::vector<Beside> beside_;
+    std::vector<char> near_; ///< #blocks
     std::vector<Wish> wishes_;
 };
 
