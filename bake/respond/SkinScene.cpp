@@ -1,6 +1,7 @@
 #include "bake/respond/SkinScene.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace tss {
 namespace {
@@ -44,9 +45,8 @@ void placeSurface(const SkinBody& body, double activation, ChainMotion bones, Sk
     if (!isAtRest(placed.bones)) spanMuscle(body, placed, scene);
 }
 
-/// The position of a vertex by dual quaternion skinning, after muscles have displaced it by `sum`; rotates
-/// its normal.
-Move blendedPlace(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
+/// The mean motion of the frames that a vertex has shares in; none where all of these are at rest.
+std::optional<Pose> blendedPose(const SkinRig& rig, const SkinScene& scene, std::size_t v) {
     PoseBlend blend;
     bool moves = false;
     for (const auto& [frame, share] : rig.frameShares[v])
@@ -54,8 +54,15 @@ Move blendedPlace(const SkinRig& rig, SkinScene& scene, std::size_t v, const Mov
             blend.add(static_cast<double>(share), scene.frames[frame]);
             moves = true;
         }
-    if (!moves) return rig.places[v] + sum;
-    const Pose pose = blend.pose();
+    return moves ? std::optional(blend.pose()) : std::nullopt;
+}
+
+/// The position of a vertex by dual quaternion skinning, after muscles have displaced it by `sum`; rotates
+/// its normal.
+Move blendedPlace(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
+    const std::optional<Pose> blended = blendedPose(rig, scene, v);
+    if (!blended) return rig.places[v] + sum;
+    const Pose& pose = *blended;
     const Vec3 place = rig.places[v].head<3>().cast<double>() + sum.head<3>().cast<double>();
     Move result = rig.places[v];
     result.head<3>() = (pose * place).cast<float>();
@@ -122,6 +129,10 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         if (scene.live[b] != 0) placeBlock(rig, b, turns, shift, scene);
         scene.live[b] = (scene.live[b] & 2) / 2;
     }
+}
+
+Eigen::Matrix3f turnOf(const SkinRig& rig, const SkinScene& scene, std::size_t v) {
+    return blendedPose(rig, scene, v).value_or(Pose::Identity()).linear().cast<float>();
 }
 
 } // namespace tss

@@ -42,4 +42,7 @@ struct SkinScene {
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                  std::span<const Vec3> shift, SkinScene& scene);
 
+/// How bones have turned the skin at a touched vertex since rest.
+Eigen::Matrix3f turnOf(const SkinRig& rig, const SkinScene& scene, std::size_t v);
+
 } // namespace tss

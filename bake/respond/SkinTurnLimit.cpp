@@ -6,7 +6,8 @@
 namespace tss {
 namespace {
 
-/// Of its area as carried, seen along the skin's normal, a triangle keeps this share at least.
+/// Of its area as carried, seen along its normal at rest as bones turn it, a triangle keeps this share at
+/// least.
 constexpr float leastShare = 0.02f;
 /// Changing some displacements may turn over a triangle beside them: most times that this is done, first by
 /// gathering, then by making them smaller.
@@ -54,9 +55,9 @@ void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> 
         const Tri& corners = *at;
         if (std::ranges::none_of(corners, displaced)) continue;
         const Edges edges = edgesOf(scene.carried, corners);
-        Eigen::Vector3f outwards = Eigen::Vector3f::Zero();
-        for (const int corner : corners) outwards += scene.normalOf(static_cast<std::size_t>(corner));
-        const Eigen::Vector3f normal = outwards.normalized();
+        const Edges rest = edgesOf(rig_.places, corners);
+        const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
+                                       rest.first.cross(rest.second).normalized();
         const float area = normal.dot(edges.first.cross(edges.second));
         if (area > 0) beside_.push_back({corners, normal, area});
     }

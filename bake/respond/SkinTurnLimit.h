@@ -6,7 +6,8 @@ namespace tss {
 /// Keeps contacts from turning triangles of the skin over. Where their pushes would, the displacements around
 /// are first brought nearer to the largest of them, so that what is pushed out of a body takes its
 /// surroundings along; where that does not do, they are made smaller until none turns over. Both in a bounded
-/// number of rounds. What is turned over without pushes is left as it is. Without history.
+/// number of rounds. A triangle is turned over where it faces away from its normal at rest as bones turn its
+/// first corner (SkinFollowing counts them so); one that is without pushes is left as it is. Without history.
 class SkinTurnLimit {
 public:
     /// Keeps a reference to the rig.
@@ -20,7 +21,7 @@ private:
     /// A triangle beside displaced skin that is not turned over as the skin is carried.
     struct Beside {
         Tri corners{0, 0, 0};
-        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, the mean of the skin's at its corners
+        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, at rest, turned as bones turn its first corner
         float area = 0;                                   ///< as carried, seen along the normal
     };
     /// A node at a triangle that pushes would turn over.

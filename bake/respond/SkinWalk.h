@@ -54,12 +54,17 @@ SurfacePoint walkDownhill(const Eigen::Vector3f& x, int start, const std::vector
     };
     visit(start);
     int before = -1; // the triangle that the walk came from is farther
-    const auto visitOther = [&](int triangle) {
-        if (triangle != before) visit(triangle);
-    };
     for (int step = 0; step < steps; ++step) {
         const int from = best.triangle;
-        const Eigen::Vector3f w = best.weights;
+        const Tri& t = triangles[from];
+        const Eigen::Vector3f w = best.weights, at = best.point, toX = x - at;
+        // A triangle that the nearest point lies on has a nearer one only where a corner of it that is not
+        // one of `from` lies towards x.
+        const auto visitOther = [&](int triangle) {
+            if (triangle == before) return;
+            for (const int v : triangles[triangle])
+                if (v != t[0] && v != t[1] && v != t[2] && toX.dot(place(v) - at) > 0) return visit(triangle);
+        };
         // The distance can only decrease across an edge that the nearest point lies on, or at a corner to any
         // triangle around it.
         if ((w.array() > 0).count() == 1) {
