@@ -11,7 +11,7 @@ namespace {
 constexpr float leastShare = 0.02f;
 /// Changing some displacements may turn over a triangle beside them: most times that this is done, first by
 /// gathering, then by making them smaller.
-constexpr int mostGathering = 16, mostLowering = 16;
+constexpr int mostGathering = 64, mostLowering = 16;
 
 struct Edges {
     Eigen::Vector3f first, second;
