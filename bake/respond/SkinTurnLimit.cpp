@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tss {
 namespace {
@@ -34,32 +35,42 @@ float partLeft(const Edges& carried, const Edges& now, const Eigen::Vector3f& no
 
 } // namespace
 
-SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {}
+SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {
+    firstOf_.assign(rig.blocks() + 1, 0);
+    for (const Tri& t : rig.triangles)
+        ++firstOf_[static_cast<std::size_t>(t.minCoeff()) / SkinRig::block + 1];
+    std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
+}
+
+/// Finds which vertices of displaced blocks have moved, and the blocks around them.
+void SkinTurnLimit::findMoved(const SkinScene& scene, std::span<const char> blocks) {
+    moved_.assign(scene.carried.size(), 0);
+    near_.assign(blocks.size(), 0);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (blocks[b] == 0) continue;
+        char any = 0;
+        const std::size_t last = std::min((b + 1) * SkinRig::block, moved_.size());
+        for (std::size_t v = b * SkinRig::block; v < last; ++v)
+            any |= moved_[v] = (scene.skin[v] - scene.carried[v]).squaredNorm() > settled * settled;
+        if (any != 0)
+            for (const std::uint32_t around : rig_.around[b]) near_[around] = 1;
+    }
+}
 
 void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> blocks) {
+    findMoved(scene, blocks);
     beside_.clear();
-    const auto displaced = [&](int corner) { return blocks[corner / SkinRig::block] != 0; };
-    const auto firstBlock = [](const Tri& t) {
-        return static_cast<std::size_t>(t.minCoeff()) / SkinRig::block;
-    };
-    near_.assign(blocks.size(), 0); // blocks in which the first corners of displaced triangles are
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-        if (blocks[b] != 0)
-            for (const std::uint32_t around : rig_.around[b]) near_[around] = 1;
-    for (auto at = rig_.triangles.begin(); at != rig_.triangles.end(); ++at) {
-        const std::size_t block = firstBlock(*at);
-        if (near_[block] == 0) { // on to the next block: they are sorted by their first corners
-            at = std::ranges::upper_bound(at, rig_.triangles.end(), block, {}, firstBlock) - 1;
-            continue;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        if (near_[b] == 0) continue;
+        for (std::uint32_t t = firstOf_[b]; t < firstOf_[b + 1]; ++t) {
+            const Tri& corners = rig_.triangles[t];
+            if ((moved_[corners[0]] | moved_[corners[1]] | moved_[corners[2]]) == 0) continue;
+            const Edges edges = edgesOf(scene.carried, corners), rest = edgesOf(rig_.places, corners);
+            const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
+                                           rest.first.cross(rest.second).normalized();
+            const float area = normal.dot(edges.first.cross(edges.second));
+            if (area > 0) beside_.push_back({corners, normal, area});
         }
-        const Tri& corners = *at;
-        if (std::ranges::none_of(corners, displaced)) continue;
-        const Edges edges = edgesOf(scene.carried, corners);
-        const Edges rest = edgesOf(rig_.places, corners);
-        const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
-                                       rest.first.cross(rest.second).normalized();
-        const float area = normal.dot(edges.first.cross(edges.second));
-        if (area > 0) beside_.push_back({corners, normal, area});
     }
 }
 

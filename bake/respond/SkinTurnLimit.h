@@ -21,8 +21,9 @@ private:
     /// A triangle beside displaced skin that is not turned over as the skin is carried.
     struct Beside {
         Tri corners{0, 0, 0};
-        Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< unit, at rest, turned as bones turn its first corner
-        float area = 0;                                   ///< as carried, seen along the normal
+        Eigen::Vector3f normal =
+            Eigen::Vector3f::Zero(); ///< unit, at rest, turned as bones turn its first corner
+        float area = 0;              ///< as carried, seen along the normal
     };
     /// A node at a triangle that pushes would turn over.
     struct Wish {
@@ -30,12 +31,15 @@ private:
         float part = 1;         ///< of the differences between displacements that the triangle can stand
         Move to = Move::Zero(); ///< what displacements come nearer to
     };
+    void findMoved(const SkinScene& scene, std::span<const char> blocks);
     void findTriangles(const SkinScene& scene, std::span<const char> blocks);
     void findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers);
 
     const SkinRig& rig_;
     std::vector<Beside> beside_;
-    std::vector<char> near_; ///< #blocks
+    std::vector<std::uint32_t> firstOf_; ///< #blocks + 1: first of the triangles whose first corner is in it
+    std::vector<char> moved_;            ///< #touched: pushes have displaced the vertex
+    std::vector<char> near_;             ///< #blocks: first corners of triangles at such vertices are in it
     std::vector<Wish> wishes_;
 };
 
