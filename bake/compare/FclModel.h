@@ -5,13 +5,15 @@
 
 namespace tss::compare {
 
-/// The triangles of a mesh as FCL takes them, in a tree of volumes of one kind.
+/// The triangles of a mesh as FCL takes them, `scale` times as large, in a tree of volumes of one kind.
 template <class Volume>
-void fillFclModel(fcl::BVHModel<Volume>& model, const TriangleMesh& mesh) {
+void fillFclModel(fcl::BVHModel<Volume>& model, const TriangleMesh& mesh, double scale = 1) {
     std::vector<fcl::Triangle> triangles;
     for (const Tri& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    std::vector<Vec3> vertices = mesh.vertices;
+    for (Vec3& v : vertices) v *= scale;
     model.beginModel();
-    model.addSubModel(mesh.vertices, triangles);
+    model.addSubModel(vertices, triangles);
     model.endModel();
 }
 

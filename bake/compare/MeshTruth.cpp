@@ -3,6 +3,8 @@
 #include "bake/compare/FclModel.h"
 #include "bake/motion/RandomPoses.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <random>
 
@@ -23,23 +25,36 @@ double largestShare(const Motion& motion, const std::vector<double>& p, const st
 
 } // namespace
 
+/// FCL's distance of two triangles is 0 wherever it takes one of them for a line, and that it does by an
+/// absolute length: triangles of 0.1 mm in a scene of metres are such. Hence its models are some 2^20 units
+/// large, by a power of two, which rounds nothing.
 struct MeshTruth::Models {
+    Models(const TriangleMesh& a, const TriangleMesh& b) {
+        const double size = std::max(diagonal(a), diagonal(b));
+        if (size > 0) scale = std::ldexp(1.0, 20 - std::ilogb(size));
+        fillFclModel(this->a, a, scale);
+        fillFclModel(this->b, b, scale);
+    }
+    Pose placed(Pose pose) const {
+        pose.translation() *= scale;
+        return pose;
+    }
+
     Model a, b;
+    double scale = 1;
 };
 
-MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b) : models_(std::make_unique<Models>()) {
-    fillFclModel(models_->a, a);
-    fillFclModel(models_->b, b);
-}
+MeshTruth::MeshTruth(const TriangleMesh& a, const TriangleMesh& b)
+    : models_(std::make_unique<Models>(a, b)) {}
 
 MeshTruth::~MeshTruth() = default;
 
 bool MeshTruth::touches(const Pose& pose) const {
-    return fclTouch(models_->a, models_->b, pose);
+    return fclTouch(models_->a, models_->b, models_->placed(pose));
 }
 
 double MeshTruth::distance(const Pose& pose) const {
-    return fclDistance(models_->a, models_->b, pose);
+    return fclDistance(models_->a, models_->b, models_->placed(pose)) / models_->scale;
 }
 
 std::vector<std::vector<double>> nearContactPoses(const std::function<bool(const Pose&)>& touches,
