@@ -86,12 +86,13 @@ std::optional<Selection> selectFew(const PairTask& task, const CandidatePairs& c
 
 /// Whether tests with the epsilon that was reached report contact at rest, where the spheres have none.
 bool touchesAtRest(const PairTask& task, const CoverResult& result) {
-    if (!(task.spheres.clearanceAtRest > 0) || task.options.atRest == AtRest::Collide) return false;
+    if (task.options.atRest == AtRest::Collide) return false;
     const Pose rest = pose(task.motion, restValues(task.motion));
     return std::ranges::any_of(result.pairs, [&](const SpherePair& pair) {
         const Sphere &a = task.spheres.a.spheres[pair.a], &b = task.spheres.b.spheres[pair.b];
         const double gap = (rest * b.centre - a.centre).norm() - a.radius - b.radius;
-        return gap > 0 && gap <= result.epsilon;
+        const double threshold = task.ruled.rule.threshold(pair); // -infinity: exempt at every depth
+        return gap > threshold && gap <= threshold + result.epsilon;
     });
 }
 
@@ -106,11 +107,9 @@ Selection selectCover(const PairTask& task, const CandidatePairs& candidates, st
     Selection selection = selectionOf(task, result);
     if (!result.complete && touchesAtRest(task, result))
         throw BudgetEnded(
-            fmt::format("the budget ended at epsilon {}, and the meshes are {} apart at rest, where such a "
-                        "table would report "
-                        "contact: expected a longer --budget, or a coarser --tolerance or --epsilon",
-                        lengthText(result.epsilon, task.options.metersPerUnit),
-                        lengthText(task.spheres.clearanceAtRest, task.options.metersPerUnit)));
+            fmt::format("the budget ended at epsilon {}, and such a table would report contact where the "
+                        "joint rests: expected a longer --budget, or a coarser --tolerance or --epsilon",
+                        lengthText(result.epsilon, task.options.metersPerUnit)));
     if (!result.complete)
         notes.push_back(fmt::format("the budget ended first: epsilon {} was reached, not {}",
                                     lengthText(result.epsilon, task.options.metersPerUnit),
