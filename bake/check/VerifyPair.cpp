@@ -17,8 +17,16 @@ namespace {
 void verifyGap(PairVerdict& verdict, const SceneModel& scene, const Pair& pair, const Motion& motion,
                const Progress& progress) {
     const BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
-    const PairSpheres spheres = fillPair(scene, pair, motion, options, progress);
-    if (!report(progress, "spheres", 1)) {
+    PairSpheres spheres;
+    bool stopped = false;
+    try {
+        spheres = fillPair(scene, pair, motion, options, progress);
+        stopped = !report(progress, "spheres", 1);
+    } catch (const InputError&) { // also thrown where the filling was stopped
+        stopped = !report(progress, "spheres", 0);
+        if (!stopped) throw;
+    }
+    if (stopped) {
         verdict.reason = "stopped before its spheres were made again";
         return;
     }

@@ -32,3 +32,21 @@ TEST_CASE("a verification that is stopped says so, wherever it is") {
         CHECK(said.find("stopped") != std::string::npos);
     }
 }
+
+TEST_CASE("a verification that is stopped while it makes spheres again says so, and throws nothing") {
+    SceneModel scene = lumpyPair(5);
+    std::mt19937_64 random(5);
+    // Overlapping at rest, with triangles enough there for a look at Progress among them.
+    scene.bodies[0].mesh =
+        transformed(lumpyMesh(random, 5, 0.1), Eigen::Affine3d(Eigen::Translation3d(0.7, 0, 0)));
+    scene.pairs[0].settings = {{"tolerance", "0.1"}, {"depth", "0.1"}};
+    bake(scene, {});
+    REQUIRE(scene.pairs[0].table);
+    bool stopped = false;
+    const Progress stop = [&](std::string_view step, double done) {
+        stopped = stopped || (step == "patches" && done == 0);
+        return !stopped;
+    };
+    CHECK(verifyPair(scene, scene.pairs[0], stop).reason == "stopped before its spheres were made again");
+    CHECK(stopped);
+}
