@@ -207,9 +207,9 @@ private:
             result_.notes.push_back(std::to_string(notes.size() - most) + " more like this one");
     }
 
-    bool isWanted(const Pair& pair) const {
+    bool isWanted(int bodyA, int bodyB) const {
         const auto same = [&](int a, int b) {
-            return (pair.bodyA == a && pair.bodyB == b) || (pair.bodyA == b && pair.bodyB == a);
+            return (bodyA == a && bodyB == b) || (bodyA == b && bodyB == a);
         };
         for (const auto& [a, b] : robot_.unpaired)
             if (same(indexOf(a), indexOf(b))) return false;
@@ -228,9 +228,10 @@ private:
         const AllPairs found = addAllPairs(result_.scene);
         std::vector<Pair>& pairs = result_.scene.pairs;
         const std::size_t all = pairs.size();
-        std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair); });
+        std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair.bodyA, pair.bodyB); });
         std::vector<std::string> unmade;
-        for (const std::string& note : found.notes) unmade.push_back("no pair: " + note);
+        for (const AllPairs::Unmade& none : found.unmade)
+            if (isWanted(none.bodyA, none.bodyB)) unmade.push_back("no pair: " + none.note);
         noteSome(unmade, 10);
         if (request_.pairs == RobotPairs::All && pairs.size() < all)
             result_.notes.push_back("pairs whose collision the robot's files switch off, left out: " +

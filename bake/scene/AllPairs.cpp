@@ -62,13 +62,13 @@ std::string obstacle(const SceneModel& scene, const Pair& pair, const std::vecto
     }
 }
 
-/// The pair of two bodies, B the one that moves; nothing, perhaps with a note, where they are none.
+/// The pair of two bodies, B the one that moves; nothing, perhaps with why, where they are none.
 std::optional<Pair> pairOf(const SceneModel& scene, const JointGraph& graph, const std::vector<int>& movers,
-                           int a, int b, std::vector<std::string>& notes) {
+                           int a, int b, std::vector<AllPairs::Unmade>& unmade) {
     const std::string both = scene.bodies[a].path + " and " + scene.bodies[b].path;
     const auto chain = graph.chain(a, b);
     if (!chain) {
-        notes.push_back(both + ": more than one chain of joints links them, a closed loop");
+        unmade.push_back({a, b, both + ": more than one chain of joints links them, a closed loop"});
         return std::nullopt;
     }
     Pair pair;
@@ -89,7 +89,7 @@ std::optional<Pair> pairOf(const SceneModel& scene, const JointGraph& graph, con
         if (obstacle(scene, pair, movers).empty()) why.clear();
     }
     if (!why.empty()) {
-        notes.push_back(both + ": " + why);
+        unmade.push_back({a, b, both + ": " + why});
         return std::nullopt;
     }
     return pair;
@@ -109,7 +109,7 @@ AllPairs addAllPairs(SceneModel& scene) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j) {
             if (known.contains({bodies[i], bodies[j]})) continue;
-            std::optional<Pair> pair = pairOf(scene, graph, moving, bodies[i], bodies[j], result.notes);
+            std::optional<Pair> pair = pairOf(scene, graph, moving, bodies[i], bodies[j], result.unmade);
             if (!pair) continue;
             if (pair->path.empty()) pair->path = freePath(scene, paths, *pair);
             paths.insert(pair->path);

@@ -5,8 +5,13 @@ namespace tss {
 
 /// What a pass over all body pairs of a scene found.
 struct AllPairs {
+    /// Two bodies that cannot be a pair of ours.
+    struct Unmade {
+        int bodyA = -1, bodyB = -1;
+        std::string note; ///< both, and why
+    };
     std::vector<std::string> added; ///< paths of the new pairs, in the order of the scene's bodies
-    std::vector<std::string> notes; ///< pairs of bodies that cannot be one of ours, and why
+    std::vector<Unmade> unmade;
 };
 
 /// Makes a pair of every two rigid bodies with geometry that exactly one chain of joints links and that are

@@ -28,10 +28,12 @@ struct BakeArguments {
 /// Adds the pairs of all bodies to the scene and says which; also what cannot be a pair.
 Json addPairs(SceneModel& scene, const Console& console) {
     const AllPairs found = addAllPairs(scene);
-    for (const std::string& note : found.notes) console.say("no pair: " + note);
+    std::vector<std::string> notes;
+    for (const AllPairs::Unmade& unmade : found.unmade) notes.push_back(unmade.note);
+    for (const std::string& note : notes) console.say("no pair: " + note);
     console.say(
         fmt::format("{} added, {} in the scene", counted(found.added.size(), "pair"), scene.pairs.size()));
-    return {{"added", found.added}, {"notes", found.notes}};
+    return {{"added", found.added}, {"notes", notes}};
 }
 
 /// How many pairs never collide, overlap at rest, need a table of another kind.

@@ -270,6 +270,20 @@ TEST_CASE("names that USD does not know are kept beside, and the scene reads bac
     CHECK(motion.dofs[0].rest == 0);
 }
 
+TEST_CASE("of pairs that are not asked for it is not said why they are none") {
+    std::string links = aLink("l0");
+    for (int k = 1; k <= 13; ++k)
+        links += aLink("l" + std::to_string(k)) + aJoint("j" + std::to_string(k), "revolute",
+                                                         "l" + std::to_string(k - 1), "l" + std::to_string(k),
+                                                         "<origin xyz='1 0 0'/>" + limits);
+    CHECK(hasNote(madeOfUrdf(robotOf(links)).notes, "no pair: "));
+    RobotSceneRequest neighbours;
+    neighbours.pairs = RobotPairs::Neighbours;
+    const RobotScene robot = madeOfUrdf(robotOf(links), neighbours);
+    CHECK(robot.scene.pairs.size() == 13);
+    CHECK_FALSE(hasNote(robot.notes, "no pair: "));
+}
+
 TEST_CASE("pairs are those of neighbours or all, and an SRDF takes some out") {
     const std::string text =
         robotOf(aLink("a") + aLink("b") + aLink("c") + aJoint("j", "revolute", "a", "b", limits) +

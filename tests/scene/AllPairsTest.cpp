@@ -41,7 +41,7 @@ std::vector<std::string> pathsOf(const SceneModel& scene) {
 TEST_CASE("a pass over all bodies makes pairs of neighbours and over chains of joints") {
     SceneModel scene = leg();
     const AllPairs found = addAllPairs(scene);
-    CHECK(found.notes.empty());
+    CHECK(found.unmade.empty());
     CHECK(found.added == std::vector<std::string>{"/Scene/Joint0", "/Scene/Pelvis_Shank",
                                                   "/Scene/Pelvis_Foot", "/Scene/Joint1", "/Scene/Thigh_Foot",
                                                   "/Scene/Joint2"});
@@ -85,7 +85,7 @@ TEST_CASE("what cannot collide or cannot be baked is no pair, and the notes say 
     scene.joints[2].dofs[0].upper = std::numeric_limits<double>::infinity();
     AllPairs found = addAllPairs(scene);
     CHECK(found.added == std::vector<std::string>{"/Scene/Pelvis_Shank", "/Scene/Joint1"});
-    CHECK(found.notes.size() == 3); // everything against the foot
+    CHECK(found.unmade.size() == 3); // everything against the foot
 
     scene = leg();
     Joint loop = scene.joints[0];
@@ -95,8 +95,8 @@ TEST_CASE("what cannot collide or cannot be baked is no pair, and the notes say 
     scene.joints.push_back(loop);
     found = addAllPairs(scene);
     CHECK(found.added.empty());
-    REQUIRE(found.notes.size() == 6);
-    CHECK(found.notes[0].find("closed loop") != std::string::npos);
+    REQUIRE(found.unmade.size() == 6);
+    CHECK(found.unmade[0].note.find("closed loop") != std::string::npos);
 
     scene = leg();
     scene.joints[1].enabled = false; // two halves that nothing holds together
