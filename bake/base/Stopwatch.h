@@ -1,4 +1,6 @@
 #pragma once
+#include "bake/base/Infinity.h"
+
 #include <chrono>
 #include <ctime>
 
@@ -13,6 +15,22 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     Clock::time_point start_ = Clock::now();
+};
+
+/// A point in time by the wall clock; one made without seconds never comes.
+class Deadline {
+public:
+    Deadline() = default;
+    /// In so many seconds.
+    explicit Deadline(double seconds) : seconds_(seconds) {}
+
+    bool comes() const { return seconds_ < infinity; }
+    double left() const { return seconds_ - watch_.seconds(); } ///< seconds; infinity: it never comes
+    bool over() const { return left() <= 0; }
+
+private:
+    double seconds_ = infinity;
+    Stopwatch watch_;
 };
 
 /// Seconds that this thread has run: another program that takes its turn in between does not count.

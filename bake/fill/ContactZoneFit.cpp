@@ -230,7 +230,8 @@ private:
                                     result_.levels.back().tolerance, tolerance, error.message);
                 return backToLast();
             }
-            try { // some level there must be, if it can be had soon
+            if (!report(progress_, "patches", 0)) throw; // stopped before there is anything
+            try {                                        // some level there must be, if it can be had soon
                 fitBoth(forTrial(options_.medial, 0), {});
             } catch (const TooFine&) {
                 throw InputError(error.message);

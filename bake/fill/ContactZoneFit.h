@@ -63,7 +63,8 @@ struct ContactZoneFit {
 /// have no spheres: what is inside the other body from the beginning, surfaces apart, is not contact. Meshes
 /// that never meet get the spheres that show it, or none when the surfaces alone do. Where the joint rests,
 /// the spheres are apart wherever the meshes are (see RestPlan). Stopped through progress, the result is that
-/// of the level reached and the note says so. Throws InputError for a mesh that cannot be used.
+/// of the level reached and the note says so. Throws InputError where there is no level yet, and for a mesh
+/// that cannot be used.
 ContactZoneFit fitContactZone(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
                               const ContactZoneOptions& options, const Progress& progress = {});
 

@@ -4,7 +4,9 @@
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/BakeSkin.h"
+#include "bake/pipeline/BakeTurns.h"
 #include "bake/pipeline/CheckBake.h"
+#include "bake/pipeline/SelectTests.h"
 
 #include <algorithm>
 #include <new>
@@ -67,7 +69,8 @@ class Baker {
 public:
     Baker(SceneModel& scene, const BakeRequest& request, const Progress& progress)
         : scene_(scene), request_(request), progress_([&](std::string_view step, double done) {
-              return !interrupted() && report(progress, step, done);
+              late_ = late_ || turn_.over();
+              return !late_ && !interrupted() && report(progress, step, done);
           }) {}
 
     std::vector<PairReport> run() {
@@ -78,16 +81,7 @@ public:
             if (isToBake(pair)) addSettings(pair, request_);
         for (SkinModel& skin : scene_.skins)
             if (isToBake(skin)) addSettings(skin, request_);
-        each(scene_.pairs, [&](Pair& pair, PairReport& report) {
-            BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
-            options.effort = request_.effort;
-            options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
-            options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
-            bakePair(scene_, pair, options, report, progress_);
-        });
-        each(scene_.skins, [&](SkinModel& skin, PairReport& report) {
-            bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progress_);
-        });
+        bakeInTurns();
         return std::move(reports_);
     }
 
@@ -102,24 +96,70 @@ private:
         return std::ranges::find(paths_, item.path) != paths_.end();
     }
 
-    template <class Items, class Work>
-    void each(Items& items, const Work& work) {
-        for (auto& item : items)
-            if (!interrupted() && isToBake(item)) one(item, work);
+    /// What is to be baked, in its order: numbers of pairs, then, counted on, of skins. Where time is short
+    /// skins come first, for all that is seen of a body is its skin.
+    std::vector<std::size_t> order() const {
+        std::vector<std::size_t> pairs, skins;
+        for (std::size_t k = 0; k < scene_.pairs.size(); ++k)
+            if (isToBake(scene_.pairs[k])) pairs.push_back(k);
+        for (std::size_t k = 0; k < scene_.skins.size(); ++k)
+            if (isToBake(scene_.skins[k])) skins.push_back(scene_.pairs.size() + k);
+        if (!request_.until.comes()) {
+            pairs.insert(pairs.end(), skins.begin(), skins.end());
+            return pairs;
+        }
+        pairs = pairsByWeight(scene_, pairs);
+        skins.insert(skins.end(), pairs.begin(), pairs.end());
+        return skins;
     }
 
+    void bakeInTurns() {
+        BakeTurns turns(order(), request_.until);
+        while (!interrupted()) {
+            const std::optional<BakeTurns::Turn> turn = turns.next();
+            if (!turn) break;
+            turn_ = turn->until;
+            const auto bakeIt = [&](auto& item) {
+                one(item, [&](PairReport& report) { bakeOne(item, report); });
+            };
+            const std::size_t pairs = scene_.pairs.size();
+            turn->item < pairs ? bakeIt(scene_.pairs[turn->item]) : bakeIt(scene_.skins[turn->item - pairs]);
+            if (late_) turns.cutShort();
+        }
+    }
+
+    void bakeOne(Pair& pair, PairReport& report) {
+        BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
+        options.effort = request_.effort;
+        options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
+        options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
+        options.until = turn_;
+        try {
+            bakePair(scene_, pair, options, report, progress_);
+        } catch (const BudgetEnded&) {
+            if (!turn_.comes()) throw;
+            late_ = true;
+        }
+    }
+
+    void bakeOne(SkinModel& skin, PairReport& report) {
+        bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progress_);
+    }
+
+    /// Bakes one item; leaves it as it was where that does not come to its end.
     template <class Item, class Work>
     void one(Item& item, const Work& work) {
         const Item before = item;
+        late_ = false;
         try {
-            const PairReport report = timed(item, [&](PairReport& report) { work(item, report); });
-            if (!interrupted()) {
+            const PairReport report = timed(item, work);
+            if (!late_ && !interrupted()) {
                 reports_.push_back(report);
                 if (request_.done) request_.done(report);
                 return;
             }
         } catch (const InputError& error) {
-            if (!interrupted()) {
+            if (!late_ && !interrupted()) {
                 if (!request_.failed) throw;
                 request_.failed(error);
             }
@@ -130,6 +170,8 @@ private:
     SceneModel& scene_;
     const BakeRequest& request_;
     bool over_ = false;
+    Deadline turn_;     ///< by which the one in work is to be done
+    bool late_ = false; ///< it was not, and was told to stop
     const Progress progress_;
     std::vector<std::string> paths_; ///< of what is baked
     std::vector<PairReport> reports_;

@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/base/Error.h"
 #include "bake/base/Progress.h"
+#include "bake/base/Stopwatch.h"
 #include "bake/pipeline/BakeOptions.h"
 
 #include <functional>
@@ -20,7 +21,10 @@ struct BakeRequest {
     BakeSettings given;             ///< settings that override the scene's own
     std::vector<std::string> pairs; ///< prim paths of the pairs and skins to bake; empty: all
     bool onlyMissing = false;       ///< not those whose table fits the scene and the settings already
-    double effort = 1;              ///< share of the usual limits of looks and patches, in (0, 1]
+    /// What is not baked by then is left as it was before. Pairs that matter most come first, each for a
+    /// share of the time (BakeTurns).
+    Deadline until{};
+    double effort = 1; ///< share of the usual limits of looks and patches, in (0, 1]
     /// Called for each that is baked, once it is in the scene.
     std::function<void(const PairReport&)> done{};
     /// Called for each that cannot be baked, and the others are baked; without it the error is thrown.

@@ -191,11 +191,7 @@ std::vector<BakeOption> makeBakeOptions() {
          [](BakeOptions& o, Text key, Text text, double) { o.samples = count(key, text, 1); }},
         {"at-rest", "the region in which the meshes overlap at rest: " + listed(atRestWords),
          [](BakeOptions& o, Text key, Text text, double) { o.atRest = choice(key, text, atRestWords); }},
-        {"budget",
-         "seconds to find the few tests of each pair, making its spheres not counted; 0: no limit. Default: "
-         "about a minute of one core; where they are not found then, and always over more than six degrees "
-         "of "
-         "freedom, all tests that may touch are kept",
+        {"budget", "",
          [](BakeOptions& o, Text, Text text, double) {
              o.budget = parseNumber(text, "--budget");
              if (*o.budget < 0) throw InputError("--budget: expected seconds >= 0, found \"" + text + "\"");

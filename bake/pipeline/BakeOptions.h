@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/base/Stopwatch.h"
 #include "bake/model/SceneModel.h"
 #include "bake/search/AtRest.h"
 #include "bake/spheres/SphereOptions.h"
@@ -34,6 +35,8 @@ struct BakeOptions {
     /// may touch; about a minute of one core. Gap-true tables, which cannot do that, have no limit.
     std::uint64_t mostLooks = 2'000'000'000;
     std::size_t mostPatches = MedialOptions().mostPatches; ///< of surface that a body is cut into
+    /// The pair or skin is to be done by then; its search for the few tests ends halfway there.
+    Deadline until;
     double effort = 1; ///< share of the usual limit of work for finding the contact zone, in (0, 1]
     /// The most pairs of spheres that a table may test where no cover of them is found. A query looks at few
     /// of them, in clusters, but each takes some 150 bytes in memory.
@@ -45,7 +48,7 @@ struct BakeOptions {
 /// (tss:bake:NAME) and in the node kit.
 struct BakeOption {
     const char* name;
-    std::string about; ///< the line of help; empty: true or false, a flag of its own on the command line
+    std::string about; ///< the line of help; empty: the command line has an option of its own for it
     void (*set)(BakeOptions& options, const std::string& key, const std::string& text, double metersPerUnit);
 };
 

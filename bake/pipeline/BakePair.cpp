@@ -221,6 +221,7 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
         Attempt attempt = apart ? std::move(*apart) : baker.few();
         if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
         made = std::move(attempt.made);
+        if (!made.table && !made.proof) throw BudgetEnded(attempt.ended);
         report.epsilon = attempt.report.epsilon;
         std::move(attempt.report.notes.begin(), attempt.report.notes.end(), std::back_inserter(report.notes));
     }

@@ -12,6 +12,15 @@ namespace tss {
 
 namespace {
 
+/// The seconds that a search for a cover may take; 0: any. Half of those that the pair has left: the other
+/// half is for what is stored where no cover is found.
+double secondsFor(const BakeOptions& options) {
+    const double asked = options.budget.value_or(0);
+    if (!options.until.comes()) return asked;
+    const double half = std::max(1e-9, 0.5 * options.until.left());
+    return asked > 0 ? std::min(asked, half) : half;
+}
+
 /// Every pair that the search has not ruled out; all pairs, where the search did not come to an end.
 Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes) {
     const SphereSet &a = task.spheres.a.spheres, &b = task.spheres.b.spheres;
@@ -31,13 +40,13 @@ Selection selectAll(const PairTask& task, const CandidatePairs& candidates, std:
     }
     selection.reduced.restGaps = rule.thresholds(pairs);
     selection.certified = true;
-    notes.push_back(fmt::format("which pairs of spheres imply others is too much to find out over {} "
-                                "degree{} of freedom{}: all {} that may meet are asked{}",
-                                task.motion.dofCount(), task.motion.dofCount() == 1 ? "" : "s",
-                                task.options.budget.value_or(0) > 0 ? " in the budget" : "", pairs.size(),
-                                task.options.budget == 0 || task.motion.dofCount() > mostCoverDofs
-                                    ? ""
-                                    : " (--again --budget 0 searches without a limit)"));
+    const bool hasCover = task.motion.dofCount() <= mostCoverDofs;
+    notes.push_back(fmt::format(
+        "which pairs of spheres imply others is too much to find out over {} "
+        "degree{} of freedom{}: all {} that may meet are asked{}",
+        task.motion.dofCount(), task.motion.dofCount() == 1 ? "" : "s",
+        hasCover && secondsFor(task.options) > 0 ? " in the budget" : "", pairs.size(),
+        hasCover && task.options.budget != 0 ? " (--again --budget 0 searches without a limit)" : ""));
     return selection;
 }
 
@@ -57,7 +66,7 @@ CoverResult coverOf(const PairTask& task, const CandidatePairs& candidates, Cove
     cover.gapDepth = task.options.depth;
     cover.gapMargin = task.margin;
     cover.rule = task.ruled.rule;
-    cover.seconds = task.options.budget.value_or(0);
+    cover.seconds = secondsFor(task.options);
     return certifiedCover(task.spheres.a.spheres, task.spheres.b.spheres,
                           allListed(candidates, task.options) ? &candidates : nullptr, task.motion, cover,
                           progress);

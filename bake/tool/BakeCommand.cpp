@@ -22,6 +22,7 @@ struct BakeArguments {
     std::string input, output;
     BakeRequest request;
     int threads = 0;
+    std::optional<double> budget; ///< seconds
     bool inscribed = false, keep = false, allPairs = false, pairsOnly = false, again = false, finer = false;
 };
 
@@ -129,12 +130,15 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    {"failures", failures},
                    {"notes", parts.notes()}});
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
+    const bool late = arguments.request.until.comes() && parts.missing().size() > parts.failures().size();
+    if (late) fmt::print(stderr, "tss: the budget of {:g} s ended first\n", *arguments.budget);
     const std::vector<std::string>& missing = parts.missing();
     constexpr std::size_t most = 8; // that are named; --json names all
     fmt::print(stderr, "tss: not baked: {}\n", firstOf(missing, most));
     if (!written.empty())
-        fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}\n", written,
-                   shellWord(written), shellWord(arguments.output));
+        fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}{}\n", written,
+                   shellWord(written), shellWord(arguments.output),
+                   late ? fmt::format(" --budget {:g}", *arguments.budget) : "");
 }
 
 /// Whether a joint has little room to move: the meshes touch at most poses, or at rest and at more than a
@@ -153,7 +157,7 @@ std::vector<std::string> bakeFiner(SceneModel& scene, const BakeRequest& request
                                    const Console& console) {
     std::vector<std::string> again;
     for (const Pair& pair : scene.pairs) {
-        if (!parts.complete()) break;
+        if (!parts.complete() || request.until.over()) break;
         if (!isWanted(request, pair.path)) continue;
         const std::optional<EarlyContact> early = measureEarlyContact(scene, pair);
         if (!early || !early->coarse() || early->tolerance <= 0) continue;
@@ -187,6 +191,8 @@ Json only(Json summary, const std::vector<std::string>& paths) {
 void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
+    if (arguments.budget == 0) arguments.request.given["budget"] = "0";
+    if (arguments.budget > 0) arguments.request.until = Deadline(*arguments.budget);
     const ThreadLimit limit(arguments.threads);
     expectScene(arguments.output);
     if (arguments.pairsOnly && !(arguments.request.given.empty() && arguments.request.pairs.empty()))
@@ -218,13 +224,14 @@ void runBake(BakeArguments& arguments, Console& console) {
     result["output"] = arguments.output;
     result["notes"] = parts.notes();
     if (arguments.allPairs) result["allPairs"] = pairs;
+    const std::vector<std::string>& baked = now ? *now : arguments.request.pairs; // empty: all
     const std::string told = arguments.pairsOnly   ? "none is baked yet\n"
                              : now && now->empty() ? "nothing was baked\n"
                              : arguments.allPairs  ? describe(result) + tally(result["pairs"])
-                                                   : describe(now ? only(result, *now) : result);
+                                                   : describe(baked.empty() ? result : only(result, baked));
     console.say(told + "wrote " + arguments.output);
     const auto stuck = static_cast<std::size_t>(std::ranges::count_if(result["pairs"], hasNoRoom));
-    for (std::size_t k = 0; k < scene.pairs.size(); ++k)
+    for (std::size_t k = 0; k < scene.pairs.size() && !arguments.request.until.over(); ++k)
         if (hasNoRoom(result["pairs"][k]))
             result["pairs"][k]["freeingMoves"] = adviseMoves(scene, scene.pairs[k], stuck, console);
     console.print(result);
@@ -256,6 +263,15 @@ void addBake(CLI::App& app, Console& console) {
             },
             option.about);
     }
+    command
+        ->add_option(
+            "--budget", arguments->budget,
+            "seconds that all of it may take: what matters most comes first, neighbours and what is "
+            "near at rest; what is not reached is named. Where the few tests of a pair are not found "
+            "in its share, and always over more than six degrees of freedom, all tests that may touch "
+            "are kept. 0: no limit, for these searches either. Default: about a minute of one core "
+            "for the search of each pair")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag(
         "--no-conservative", arguments->inscribed,
         "inscribed spheres: nothing early where nothing stands inside the other, misses stated");

@@ -22,7 +22,7 @@ public:
     /// Notes of the bake go to people as it ends, and stay in notes().
     void run(BakeRequest request);
 
-    bool complete() const { return failures_.empty() && signal_ == 0; }
+    bool complete() const { return failures_.empty() && signal_ == 0 && missing_.empty(); }
     int signal() const { return signal_; } ///< that ended it; 0: none
     const std::vector<InputError>& failures() const { return failures_; }
     const std::vector<std::string>& missing() const { return missing_; } ///< paths of those without a table

@@ -52,13 +52,12 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
     }
 }
 
-/// The command to go on with: where there are many pairs, with some minutes of searching for all together.
+/// The command to go on with: where there are many pairs, in about as much time as somebody waits.
 std::string nextCommand(const SceneModel& scene, const std::string& output) {
     const bool many = scene.pairs.size() > 40 || std::ranges::any_of(scene.pairs, [&](const Pair& pair) {
                           return isLongChain(scene, pair);
                       });
-    return "tss bake " + shellWord(output) + " -o BAKED.tss" +
-           (many ? fmt::format(" --budget {:g}", firstBudget(scene)) : "");
+    return "tss bake " + shellWord(output) + " -o BAKED.tss" + (many ? " --budget 120" : "");
 }
 
 /// The tolerances that the pairs have of their own. Nothing: none.

@@ -223,6 +223,10 @@ void verify(const std::string& file, double budget, Console& console) {
     if (result["pairs"].empty() && result["skins"].empty())
         throw InputError(Where{file}, "nothing to verify; expected a scene with a baked pair or skin");
     if (result["pairs"].size() > 1) console.say(tally(result["pairs"]));
+    result["notBaked"] = scene.pairs.size() - result["pairs"].size();
+    if (result["notBaked"] > 0)
+        console.say(fmt::format("of {} more nothing is known: not baked yet",
+                                counted(result["notBaked"].get<std::size_t>(), "pair")));
     if (result["pairs"].empty())
         console.say(fmt::format("nothing is proven: {} looked at, and no pair of rigid bodies has a table",
                                 counted(result["skins"].size(), "skin")));

@@ -239,10 +239,16 @@ TEST_CASE("bodies near each other at rest that take more spheres than a limit ar
 
 TEST_CASE("a work stopped early is coarser and misses nothing") {
     const Scene scene = lumpyPair(7);
-    const ContactZoneFit fit = fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005),
-                                              [](std::string_view, double) { return false; });
+    const auto fitted = [&](const Progress& progress) {
+        return fitContactZone(scene.a, scene.b, scene.motion, tolerance(0.0005), progress);
+    };
+    const ContactZoneFit fit = fitted([](std::string_view step, double) { return step != "contact zone"; });
     CHECK(fit.a.fit.note.find("stopped") != std::string::npos);
     checkVerdicts(scene.a, scene.b, scene.motion, fit, fit.levels.back().tolerance, 1000);
+
+    // Before there is any level no time goes into one.
+    CHECK_THROWS_WITH(fitted([](std::string_view step, double) { return step != "patches"; }),
+                      Catch::Contains("stopped before the spheres were made"));
 }
 
 TEST_CASE("inscribed spheres claim no contact that is none") {

@@ -102,16 +102,16 @@ TEST_CASE("with a tolerance, bodies that overlap at rest are free there and noth
 
 TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may meet are asked") {
     const bool coarser = GENERATE(false, true); // all pairs of these spheres are too many
-    const bool byWork = GENERATE(false, true);
+    enum Limit { Seconds, Work, Until };
+    const Limit by = GENERATE(Seconds, Work, Until);
     SceneModel scene = lumpyPair(2);
     BakeOptions options;
     options.tolerance = 0.02;
     if (coarser) options.mostTests = 3000;
     options.atRest = AtRest::Collide;
-    if (byWork)
-        options.mostLooks = 1000;
-    else
-        options.budget = 1e-9;
+    if (by == Work) options.mostLooks = 1000;
+    if (by == Seconds) options.budget = 1e-9;
+    if (by == Until) options.until = Deadline(1e-9);
     const Motion motion = swing();
     const PairSpheres few = fillPair(scene, scene.pairs[0], motion, options);
     CHECK(canTestAll(few, options) == !coarser);
@@ -125,7 +125,8 @@ TEST_CASE("a budget that ends costs tests and not epsilon: all pairs that may me
     CHECK(table.testCount() > 100);
     CHECK(table.testCount() <= options.mostTests);
     const bool said = std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
-        return note.find(byWork ? "1 degree of freedom: all " : "in the budget: all ") != std::string::npos;
+        return note.find(by == Work ? "1 degree of freedom: all " : "in the budget: all ") !=
+               std::string::npos;
     });
     CHECK(said);
     const GroundTruth truth(scene.bodies[0].mesh, scene.bodies[1].mesh);

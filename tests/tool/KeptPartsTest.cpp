@@ -1,4 +1,5 @@
 // What a bake refuses is refused before anything is baked, and what is baked is not lost to what comes later.
+#include "bake/base/Stopwatch.h"
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Swing.h"
 
@@ -89,7 +90,7 @@ TEST_CASE(
     // The first one's note is printed as soon as it is done.
     const Ran ran = runTss("info in.tss --quiet", folder.path(),
                            "{ env --default-signal=INT '" TSS_PROGRAM
-                           "' bake in.tss -o out.tss --json --budget 1000 2>err & bake=$!; "
+                           "' bake in.tss -o out.tss --json --max-tests 900000 2>err & bake=$!; "
                            "until grep -q 'first: ' err || ! kill -0 $bake; do sleep 0.05; done; "
                            "kill -INT $bake; wait $bake; echo ended with $? >>err; }");
     REQUIRE(ran.exit == 0);
@@ -102,15 +103,59 @@ TEST_CASE(
     const tss::SceneModel kept = tss::loadScene(folder / "out.incomplete.tss");
     CHECK(kept.pairs[0].table);
     CHECK_FALSE(kept.pairs[1].table);
-    CHECK(kept.pairs[1].settings.at("budget") == "1000");
+    CHECK(kept.pairs[1].settings.at("max-tests") == "900000");
 
-    const std::string settings = " --json --tolerance 0.5 --budget 1000";
+    const std::string settings = " --json --tolerance 0.5 --max-tests 900000";
     const Ran on = runTss("bake out.incomplete.tss -o out.tss" + settings, folder.path());
     INFO(on.err);
     REQUIRE(on.exit == 0);
     CHECK(on.err.find("1 of 2 baked already") != std::string::npos);
     REQUIRE(runTss("bake two.tss -o whole.tss" + settings, folder.path()).exit == 0);
     CHECK(readText(folder / "out.tss") == readText(folder / "whole.tss"));
+}
+
+TEST_CASE("a bake whose budget ends keeps what was reached, whatever comes first, and names the rest") {
+    const Folder folder;
+    writeTwo(folder);
+    set(folder, "in.tss", {{"tolerance", "0.002"}}, {{"tolerance", "0.5"}}); // the first takes minutes
+    const tss::Stopwatch watch;
+    const Ran ran = runTss("bake in.tss -o out.tss --json --budget 8", folder.path());
+    INFO(ran.err);
+    CHECK(watch.seconds() < 60);
+    CHECK(ran.exit == 1);
+    CHECK(ran.err.find("the budget of 8 s ended first\n") != std::string::npos);
+    CHECK(ran.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss --budget 8\n") !=
+          std::string::npos);
+    const Json result = Json::parse(ran.out);
+    CHECK(result["complete"] == false);
+    CHECK(result["missing"] == Json::array({"/two/one"}));
+    CHECK(result["failures"].empty());
+    CHECK_FALSE(exists(folder / "out.tss"));
+    const tss::SceneModel kept = tss::loadScene(folder / "out.incomplete.tss");
+    CHECK_FALSE(kept.pairs[0].table);
+    CHECK(kept.pairs[1].table);
+    CHECK(kept.pairs[1].settings.count("budget") == 0);
+
+    // What a budget was enough for is as without one, and it is gone on with.
+    const Ran verified = runTss("verify out.incomplete.tss", folder.path());
+    CHECK(verified.exit == 0);
+    CHECK(verified.out.find("of 1 pair more nothing is known: not baked yet") != std::string::npos);
+    const Ran on = runTss("bake out.incomplete.tss -o out.tss --tolerance 0.5 --budget 1000", folder.path());
+    INFO(on.err);
+    REQUIRE(on.exit == 0);
+    CHECK(on.out.find("1 of 2 baked already") != std::string::npos);
+    REQUIRE(runTss("bake two.tss -o whole.tss --tolerance 0.5", folder.path()).exit == 0);
+    CHECK(readText(folder / "out.tss") == readText(folder / "whole.tss"));
+    CHECK(runTss("bake two.tss -o x.tss --budget -1", folder.path()).exit == 2);
+}
+
+TEST_CASE("of one pair that is baked alone, that pair is told") {
+    const Folder folder;
+    writeTwo(folder);
+    const Ran ran = runTss("bake two.tss -o out.tss --tolerance 0.5 --pair /two/two", folder.path());
+    REQUIRE(ran.exit == 0);
+    CHECK(ran.out.find("/two/two\n") != std::string::npos);
+    CHECK(ran.out.find("/two/one\n") == std::string::npos);
 }
 
 TEST_CASE("what cannot be baked is refused by validate, and by bake before anything is baked") {

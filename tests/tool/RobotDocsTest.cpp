@@ -9,7 +9,7 @@ TEST_CASE("every command of docs/ROBOTS.md does what it says, one after the othe
     const std::vector<Ran> commands = runPage("ROBOTS.md", folder.path());
     REQUIRE(commands.size() == 11);
     // What it says comes next is what the page goes on with, finer.
-    CHECK((commands[0].out + commands[0].err).find("next: tss bake arm.tss -o BAKED.tss --budget 5\n") !=
+    CHECK((commands[0].out + commands[0].err).find("next: tss bake arm.tss -o BAKED.tss --budget 120\n") !=
           std::string::npos);
     const std::string srdf = readText(folder.path() / "arm.srdf");
     CHECK(srdf.find("reason=\"Never\"") != std::string::npos);

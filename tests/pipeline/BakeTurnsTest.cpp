@@ -1,0 +1,96 @@
+// A bake in a given time: what comes first, and how long each may take.
+#include "bake/pipeline/BakeTurns.h"
+
+#include "bake/model/AddPair.h"
+#include "tests/Joints.h"
+#include "tests/Shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tss;
+
+namespace {
+
+std::vector<std::size_t> itemsOf(BakeTurns& turns) {
+    std::vector<std::size_t> items;
+    while (const auto turn = turns.next()) items.push_back(turn->item);
+    return items;
+}
+
+} // namespace
+
+TEST_CASE("without a time limit each has one turn without one, in the order given") {
+    BakeTurns turns({4, 2, 9}, {});
+    const auto first = turns.next();
+    REQUIRE(first);
+    CHECK(first->item == 4);
+    CHECK_FALSE(first->until.comes());
+    CHECK(itemsOf(turns) == std::vector<std::size_t>{2, 9});
+}
+
+TEST_CASE("a turn is the time left over the root of how many wait, and none comes once the time is over") {
+    BakeTurns turns({0, 1, 2, 3}, Deadline(1000));
+    for (const double waiting : {4, 3, 2, 1}) {
+        const auto turn = turns.next();
+        REQUIRE(turn);
+        CHECK(turn->until.left() == Approx(1000 / std::sqrt(waiting)).epsilon(0.01));
+    }
+    CHECK_FALSE(turns.next());
+    CHECK_FALSE(BakeTurns({0}, Deadline(0)).next());
+}
+
+TEST_CASE("what was cut short comes again behind the others, if there is twice the time for it") {
+    std::vector<std::size_t> nine{0, 1, 2, 3, 4, 5, 6, 7, 8};
+    BakeTurns turns(nine, Deadline(1000));
+    REQUIRE(turns.next());
+    turns.cutShort(); // after a third of the time
+    for (std::size_t k = 1; k < 9; ++k) CHECK(turns.next()->item == k);
+    const auto again = turns.next();
+    REQUIRE(again);
+    CHECK(again->item == 0);
+    CHECK(again->until.left() == Approx(1000).epsilon(0.01));
+    turns.cutShort();
+    CHECK_FALSE(turns.next());
+
+    BakeTurns two({0, 1}, Deadline(1000));
+    REQUIRE(two.next());
+    two.cutShort(); // after 1/1.41 of it
+    CHECK(itemsOf(two) == std::vector<std::size_t>{1});
+}
+
+TEST_CASE("pairs that a joint ties come first, then what is nearest at rest") {
+    SceneModel scene;
+    scene.metersPerUnit = 1;
+    scene.defaultPrim = "Chain";
+    const std::pair<const char*, double> places[] = {{"A", 0}, {"B", 2}, {"C", 5}, {"D", 6.5}};
+    for (const auto& [name, x] : places) {
+        Body body;
+        body.path = std::string("/Chain/") + name;
+        body.mesh = boxMesh({x, 0, 0}, {x + 1, 1, 1});
+        scene.bodies.push_back(body);
+    }
+    Motion motion;
+    motion.dofs = {joints::turn({0, 5, 0}, {0, 0, 1}, -0.1, 0.1)};
+    addPair(scene, 2, 3, motion, "CD");
+    addPair(scene, 0, 1, motion, "AB");
+    addPair(scene, 1, 2, motion, "BC");
+    const auto chain = [&](int a, int b, std::vector<int> joints) {
+        Pair pair;
+        pair.bodyA = a, pair.bodyB = b, pair.joints = std::move(joints);
+        scene.pairs.push_back(pair);
+    };
+    chain(0, 2, {1, 2});    // 4 apart
+    chain(0, 3, {1, 2, 0}); // 5.5
+    chain(1, 3, {2, 0});    // 3.5
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < scene.pairs.size(); ++k) all.push_back(k);
+    std::string order;
+    for (const std::size_t k : pairsByWeight(scene, all)) {
+        const Pair& pair = scene.pairs[k];
+        for (const int body : {std::min(pair.bodyA, pair.bodyB), std::max(pair.bodyA, pair.bodyB)})
+            order += scene.bodies[body].path.back();
+        order += ' ';
+    }
+    CHECK(order == "CD AB BC BD AC AD ");
+    CHECK(pairsByWeight(scene, {4, 1}).front() == 1);
+}
