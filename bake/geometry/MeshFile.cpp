@@ -306,11 +306,22 @@ MeshFile readHere(const std::string& file) {
     return read;
 }
 
+/// What to say of a file that is not there: one beside it whose name has other capital letters, as of a file
+/// that was written where these count for nothing.
+std::string missing(const fs::path& file) {
+    const std::string name = lowerCase(file.filename().string());
+    std::error_code error;
+    for (const auto& other : fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", error))
+        if (lowerCase(other.path().filename().string()) == name)
+            return "no such file; there is " + other.path().filename().string();
+    return "no such file";
+}
+
 } // namespace
 
 MeshFile readMeshFile(const std::string& file) {
     std::error_code error;
-    if (!fs::exists(file, error)) throw InputError(Where{file}, "no such file");
+    if (!fs::exists(file, error)) throw InputError(Where{file}, missing(file));
     if (!fs::is_regular_file(file, error))
         throw InputError(Where{file}, "not a file, a mesh file was expected");
     const std::string begin = beginOf(file, 1 << 16); // as long as a header may be

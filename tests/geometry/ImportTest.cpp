@@ -136,6 +136,9 @@ TEST_CASE("a file that is no mesh is refused by its name and the reason") {
     CHECK(refusal("nowhere.obj").find("nowhere.obj: no such file") != std::string::npos);
     CHECK(refusal(OSGTSS_BINARY_DIR).find("not a file") != std::string::npos);
     const TemporaryFile text("words.txt", "these are words\n");
+    std::filesystem::path capital(text.name);
+    capital.replace_filename("Import_Words.TXT");
+    CHECK(refusal(capital.string()).find("no such file; there is import_words.txt") != std::string::npos);
     CHECK(refusal(text.name).find("cannot be read as a mesh") != std::string::npos);
     const TemporaryFile pointer("large.stl",
                                 "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n");
