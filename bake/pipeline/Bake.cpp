@@ -119,6 +119,7 @@ private:
             const std::optional<BakeTurns::Turn> turn = turns.next();
             if (!turn) break;
             turn_ = turn->until;
+            brief_ = turn->brief;
             const auto bakeIt = [&](auto& item) {
                 one(item, [&](PairReport& report) { bakeOne(item, report); });
             };
@@ -133,7 +134,7 @@ private:
         options.effort = request_.effort;
         options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
         options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
-        options.until = turn_;
+        if (!brief_) options.until = turn_;
         try {
             bakePair(scene_, pair, options, report, progress_);
         } catch (const BudgetEnded&) {
@@ -170,8 +171,9 @@ private:
     SceneModel& scene_;
     const BakeRequest& request_;
     bool over_ = false;
-    Deadline turn_;     ///< by which the one in work is to be done
-    bool late_ = false; ///< it was not, and was told to stop
+    Deadline turn_;      ///< by which the one in work is to be done
+    bool brief_ = false; ///< it has a longer turn where that is not enough
+    bool late_ = false;  ///< it was not, and was told to stop
     const Progress progress_;
     std::vector<std::string> paths_; ///< of what is baked
     std::vector<PairReport> reports_;

@@ -22,7 +22,7 @@ struct BakeRequest {
     std::vector<std::string> pairs; ///< prim paths of the pairs and skins to bake; empty: all
     bool onlyMissing = false;       ///< not those whose table fits the scene and the settings already
     /// What is not baked by then is left as it was before. Pairs that matter most come first, each for a
-    /// share of the time (BakeTurns).
+    /// turn of some of the time (BakeTurns).
     Deadline until{};
     double effort = 1; ///< share of the usual limits of looks and patches, in (0, 1]
     /// Called for each that is baked, once it is in the scene.

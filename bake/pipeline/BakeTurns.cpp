@@ -4,7 +4,6 @@
 #include "bake/pipeline/FirstLook.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace tss {
@@ -21,16 +20,31 @@ std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vecto
 
 BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& until) : until_(until) {
     for (const std::size_t item : order) waiting_.push_back({item, 0});
+    constexpr std::size_t few = 8;
+    if (waiting_.size() <= few) ++round_; // no brief turns
+    beginRound();
+}
+
+void BakeTurns::beginRound() {
+    const double left = until_.left(), count = double(std::max<std::size_t>(waiting_.size(), 1));
+    ++round_;
+    turn_ = round_ == 1 ? left / (4 * count) : round_ == 2 ? std::max(left / 8, left / count) : left;
 }
 
 std::optional<BakeTurns::Turn> BakeTurns::next() {
-    while (!waiting_.empty() && !until_.over()) {
-        const double share = until_.left() / std::sqrt(double(waiting_.size()));
+    while (!until_.over()) {
+        if (waiting_.empty()) {
+            if (cut_.empty()) return std::nullopt;
+            waiting_.assign(cut_.begin(), cut_.end());
+            cut_.clear();
+            beginRound();
+        }
         last_ = waiting_.front();
         waiting_.pop_front();
-        if (share < 2 * last_.tried) continue;
-        last_.tried = share;
-        return Turn{last_.item, until_.comes() ? Deadline(share) : Deadline()};
+        const double seconds = std::min(turn_, until_.left());
+        if (seconds < 2 * last_.tried) continue;
+        last_.tried = seconds;
+        return Turn{last_.item, until_.comes() ? Deadline(seconds) : Deadline(), round_ == 1};
     }
     return std::nullopt;
 }

@@ -12,24 +12,27 @@ namespace tss {
 /// nearest at rest first. Numbers in scene.pairs.
 std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vector<std::size_t>& wanted);
 
-/// What is baked next, and until when. Each item may take the time that is left divided by the root of how
-/// many wait, so that neither a few long ones take all of it nor many of medium length are all cut short. One
-/// that is cut short waits behind the others for a turn of at least twice the time. Without a time limit each
-/// has one turn without one.
+/// What is baked next, and until when. Without a time limit each item has one turn without one. With one
+/// there are rounds, for how long an item takes is not known beforehand: where more than eight wait, a short
+/// turn of each, a quarter of the time for all together, so that what is quick is done; then turns of an
+/// eighth of the time that is left, or of a fair share where that is longer, in the order given, as far as
+/// the time goes; then all that is left. One that was cut short has no further turn of less than twice the
+/// time.
 class BakeTurns {
 public:
     struct Turn {
         std::size_t item;
         Deadline until;
+        bool brief = false; ///< what is cut short has a longer one: there is nothing to be hasty about
     };
 
     BakeTurns(const std::vector<std::size_t>& order, const Deadline& until);
 
-    /// Nothing: all had their turn, or the time is over, or too short for those that wait.
+    /// Nothing: all had their turn, or the time is over or too short for those that wait.
     std::optional<Turn> next();
 
     /// The turn that next() gave last was too short.
-    void cutShort() { waiting_.push_back(last_); }
+    void cutShort() { cut_.push_back(last_); }
 
 private:
     struct Waiting {
@@ -37,8 +40,13 @@ private:
         double tried; ///< seconds that were too short
     };
 
+    void beginRound();
+
     std::deque<Waiting> waiting_;
+    std::vector<Waiting> cut_; ///< of this round
     Waiting last_{};
+    int round_ = 0;
+    double turn_ = infinity; ///< of this round, seconds
     const Deadline until_;
 };
 

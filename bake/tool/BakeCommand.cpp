@@ -268,7 +268,7 @@ void addBake(CLI::App& app, Console& console) {
             "--budget", arguments->budget,
             "seconds that all of it may take: what matters most comes first, neighbours and what is "
             "near at rest; what is not reached is named. Where the few tests of a pair are not found "
-            "in its share, and always over more than six degrees of freedom, all tests that may touch "
+            "in its turn, and always over more than six degrees of freedom, all tests that may touch "
             "are kept. 0: no limit, for these searches either. Default: about a minute of one core "
             "for the search of each pair")
         ->check(CLI::NonNegativeNumber);

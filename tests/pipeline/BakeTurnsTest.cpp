@@ -28,34 +28,46 @@ TEST_CASE("without a time limit each has one turn without one, in the order give
     CHECK(itemsOf(turns) == std::vector<std::size_t>{2, 9});
 }
 
-TEST_CASE("a turn is the time left over the root of how many wait, and none comes once the time is over") {
-    BakeTurns turns({0, 1, 2, 3}, Deadline(1000));
-    for (const double waiting : {4, 3, 2, 1}) {
-        const auto turn = turns.next();
-        REQUIRE(turn);
-        CHECK(turn->until.left() == Approx(1000 / std::sqrt(waiting)).epsilon(0.01));
-    }
-    CHECK_FALSE(turns.next());
+TEST_CASE("many have a short turn each, then an eighth of the time, then all that is left") {
+    std::vector<std::size_t> many;
+    for (std::size_t k = 0; k < 100; ++k) many.push_back(99 - k);
+    BakeTurns turns(many, Deadline(1000));
+    for (const double seconds : {2.5, 125.0, 1000.0})
+        for (const std::size_t item : many) {
+            const auto turn = turns.next();
+            REQUIRE(turn);
+            CHECK(turn->item == item);
+            CHECK(turn->until.left() == Approx(seconds).epsilon(0.01));
+            CHECK(turn->brief == (seconds < 100));
+            turns.cutShort();
+        }
+    CHECK_FALSE(turns.next()); // no more time than before
     CHECK_FALSE(BakeTurns({0}, Deadline(0)).next());
 }
 
-TEST_CASE("what was cut short comes again behind the others, if there is twice the time for it") {
-    std::vector<std::size_t> nine{0, 1, 2, 3, 4, 5, 6, 7, 8};
-    BakeTurns turns(nine, Deadline(1000));
-    REQUIRE(turns.next());
-    turns.cutShort(); // after a third of the time
-    for (std::size_t k = 1; k < 9; ++k) CHECK(turns.next()->item == k);
-    const auto again = turns.next();
-    REQUIRE(again);
-    CHECK(again->item == 0);
-    CHECK(again->until.left() == Approx(1000).epsilon(0.01));
-    turns.cutShort();
+TEST_CASE("few have no short turn, and a fair share where that is more than an eighth") {
+    BakeTurns turns({5, 6}, Deadline(1000));
+    for (const std::size_t item : {5, 6}) {
+        const auto turn = turns.next();
+        REQUIRE(turn);
+        CHECK(turn->item == item);
+        CHECK(turn->until.left() == Approx(500).epsilon(0.01));
+        CHECK_FALSE(turn->brief);
+        if (item == 5) turns.cutShort();
+    }
+    // Again, but only with twice the time: less than 1000 s are left by now.
     CHECK_FALSE(turns.next());
 
-    BakeTurns two({0, 1}, Deadline(1000));
-    REQUIRE(two.next());
-    two.cutShort(); // after 1/1.41 of it
-    CHECK(itemsOf(two) == std::vector<std::size_t>{1});
+    BakeTurns three({5, 6, 7}, Deadline(1000));
+    REQUIRE(three.next());
+    three.cutShort(); // after a third
+    CHECK(three.next()->item == 6);
+    CHECK(three.next()->item == 7);
+    const auto again = three.next();
+    REQUIRE(again);
+    CHECK(again->item == 5);
+    CHECK(again->until.left() == Approx(1000).epsilon(0.01));
+    CHECK_FALSE(three.next());
 }
 
 TEST_CASE("pairs that a joint ties come first, then what is nearest at rest") {
