@@ -28,12 +28,14 @@ BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& unti
 void BakeTurns::beginRound() {
     const double left = until_.left(), count = double(std::max<std::size_t>(waiting_.size(), 1));
     ++round_;
-    turn_ = round_ == 1 ? left / (4 * count) : round_ == 2 ? std::max(left / 8, left / count) : left;
+    turn_ = round_ == 1 ? left / 100 : round_ == 2 ? std::max(left / 4, left / count) : left;
+    if (round_ == 1) briefUntil_ = Deadline(left / 2);
 }
 
 std::optional<BakeTurns::Turn> BakeTurns::next() {
     while (!until_.over()) {
-        if (waiting_.empty()) {
+        if (waiting_.empty() || (round_ == 1 && briefUntil_.over())) {
+            cut_.insert(cut_.end(), waiting_.begin(), waiting_.end()); // those that had no turn yet
             if (cut_.empty()) return std::nullopt;
             waiting_.assign(cut_.begin(), cut_.end());
             cut_.clear();

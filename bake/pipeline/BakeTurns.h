@@ -13,9 +13,9 @@ namespace tss {
 std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vector<std::size_t>& wanted);
 
 /// What is baked next, and until when. Without a time limit each item has one turn without one. With one
-/// there are rounds, for how long an item takes is not known beforehand: where more than eight wait, a short
-/// turn of each, a quarter of the time for all together, so that what is quick is done; then turns of an
-/// eighth of the time that is left, or of a fair share where that is longer, in the order given, as far as
+/// there are rounds, for how long an item takes is not known beforehand: where more than eight wait, brief
+/// turns of a hundredth of the time, for half of it at most, so that what is quick is done; then turns of a
+/// quarter of the time that is left, or of a fair share where that is longer, in the order given, as far as
 /// the time goes; then all that is left. One that was cut short has no further turn of less than twice the
 /// time.
 class BakeTurns {
@@ -47,6 +47,7 @@ private:
     Waiting last_{};
     int round_ = 0;
     double turn_ = infinity; ///< of this round, seconds
+    Deadline briefUntil_;    ///< brief turns end
     const Deadline until_;
 };
 

@@ -6,6 +6,8 @@
 #include "tests/Shapes.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
 
 using namespace tss;
 
@@ -28,11 +30,11 @@ TEST_CASE("without a time limit each has one turn without one, in the order give
     CHECK(itemsOf(turns) == std::vector<std::size_t>{2, 9});
 }
 
-TEST_CASE("many have a short turn each, then an eighth of the time, then all that is left") {
+TEST_CASE("many have a brief turn each, then a quarter of the time, then all that is left") {
     std::vector<std::size_t> many;
     for (std::size_t k = 0; k < 100; ++k) many.push_back(99 - k);
     BakeTurns turns(many, Deadline(1000));
-    for (const double seconds : {2.5, 125.0, 1000.0})
+    for (const double seconds : {10.0, 250.0, 1000.0})
         for (const std::size_t item : many) {
             const auto turn = turns.next();
             REQUIRE(turn);
@@ -45,7 +47,21 @@ TEST_CASE("many have a short turn each, then an eighth of the time, then all tha
     CHECK_FALSE(BakeTurns({0}, Deadline(0)).next());
 }
 
-TEST_CASE("few have no short turn, and a fair share where that is more than an eighth") {
+TEST_CASE("brief turns end with half of the time, and all that wait follow in their order") {
+    std::vector<std::size_t> many{7, 3, 5, 1, 2, 4, 6, 8, 9};
+    BakeTurns turns(many, Deadline(0.5));
+    REQUIRE(turns.next()->item == 7); // takes no time
+    REQUIRE(turns.next()->brief);
+    turns.cutShort(); // 3
+    std::this_thread::sleep_for(std::chrono::milliseconds(260));
+    const auto next = turns.next();
+    REQUIRE(next);
+    CHECK_FALSE(next->brief);
+    CHECK(next->item == 3);
+    CHECK(turns.next()->item == 5);
+}
+
+TEST_CASE("few have no brief turn, and a fair share where that is more than a quarter") {
     BakeTurns turns({5, 6}, Deadline(1000));
     for (const std::size_t item : {5, 6}) {
         const auto turn = turns.next();
