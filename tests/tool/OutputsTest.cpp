@@ -13,7 +13,7 @@ namespace {
 /// swing.tss and its table, baked.tss.
 void writeBaked(const Folder& folder) {
     writeSwing(folder);
-    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 2mm --budget 60 --quiet", folder.path()).exit ==
+    REQUIRE(runTss("bake swing.tss -o baked.tss --tolerance 2mm --budget 1 --quiet", folder.path()).exit ==
             0);
 }
 
