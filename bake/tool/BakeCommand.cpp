@@ -188,11 +188,23 @@ Json only(Json summary, const std::vector<std::string>& paths) {
     return summary;
 }
 
+/// Few pairs and skins are all wanted: each is baked to its end, and the budget is that of its search for
+/// tests. Of many it is the time of the whole bake.
+void setBudget(const SceneModel& scene, BakeArguments& arguments) {
+    constexpr std::size_t few = 8;
+    if (!arguments.budget) return;
+    BakeRequest& request = arguments.request;
+    const std::size_t count =
+        request.pairs.empty() ? scene.pairs.size() + scene.skins.size() : request.pairs.size();
+    if (*arguments.budget == 0 || count <= few)
+        request.given["budget"] = fmt::format("{}", *arguments.budget);
+    else
+        request.until = Deadline(*arguments.budget);
+}
+
 void runBake(BakeArguments& arguments, Console& console) {
     if (arguments.inscribed) arguments.request.given["conservative"] = "false";
     if (arguments.keep) arguments.request.given["keep-spheres"] = "true";
-    if (arguments.budget == 0) arguments.request.given["budget"] = "0";
-    if (arguments.budget > 0) arguments.request.until = Deadline(*arguments.budget);
     const ThreadLimit limit(arguments.threads);
     expectScene(arguments.output);
     if (arguments.pairsOnly && !(arguments.request.given.empty() && arguments.request.pairs.empty()))
@@ -201,6 +213,7 @@ void runBake(BakeArguments& arguments, Console& console) {
     // Outside of inFile(): what is wrong with the options is no fault of the file.
     remarkTolerance(scene, optionsFor({}, arguments.request.given, scene.metersPerUnit), console);
     const Json pairs = arguments.allPairs ? addPairs(scene, console) : Json();
+    setBudget(scene, arguments);
     refuseUnused(scene, arguments.request);
     KeptParts parts(scene, arguments.input, arguments.output, readBakeTimes(arguments.input), console);
     std::optional<std::vector<std::string>> now; // what is baked, where it is not all
@@ -266,11 +279,12 @@ void addBake(CLI::App& app, Console& console) {
     command
         ->add_option(
             "--budget", arguments->budget,
-            "seconds that all of it may take: what matters most comes first, neighbours and what is "
-            "near at rest; what is not reached is named. Where the few tests of a pair are not found "
-            "in its turn, and always over more than six degrees of freedom, all tests that may touch "
-            "are kept. 0: no limit, for these searches either. Default: about a minute of one core "
-            "for the search of each pair")
+            "seconds, of up to eight pairs and skins for each to find its few tests, making its spheres "
+            "not counted; of more that all of the bake may take: what matters most comes first, "
+            "neighbours and what is near at rest; what is not reached is named. Where the few tests of "
+            "a pair are not found, and always over more than six degrees of freedom, all tests that may "
+            "touch are kept. 0: no limit. Default: about a minute of one core for the search of each "
+            "pair")
         ->check(CLI::NonNegativeNumber);
     command->add_flag(
         "--no-conservative", arguments->inscribed,

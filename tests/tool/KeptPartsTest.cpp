@@ -114,21 +114,34 @@ TEST_CASE(
     CHECK(readText(folder / "out.tss") == readText(folder / "whole.tss"));
 }
 
-TEST_CASE("a bake whose budget ends keeps what was reached, whatever comes first, and names the rest") {
+TEST_CASE("a bake of many pairs whose budget ends keeps what was reached, whatever comes first, and names "
+          "the rest") {
     const Folder folder;
     writeTwo(folder);
-    set(folder, "in.tss", {{"tolerance", "0.002"}}, {{"tolerance", "0.5"}}); // the first takes minutes
+    tss::TriangleMesh fine = ballMesh({0, 30, 0}, 5, 5);
+    fine.triangles.pop_back();
+    writeObj(fine, folder / "fine.obj");
+    std::string make = "make -o nine.tss --meters-per-unit 0.001 --pairs neighbours --body still.obj "
+                       "--body a=fine.obj --joint 'to_a=still,a:rot:25,0,0:0,0,1:-40:90'";
+    for (const std::string k : {"b", "c", "d", "e", "f", "g", "h", "i"})
+        make += " --body " + k + "=second.obj --joint 'to_" + k + "=still," + k + ":rot:25,0,0:0,0,1:-90:40'";
+    REQUIRE(runTss(make, folder.path()).exit == 0);
+    tss::SceneModel nine = tss::loadScene(folder / "nine.tss");
+    REQUIRE(nine.pairs.size() == 9);
+    for (tss::Pair& pair : nine.pairs) pair.settings = {{"tolerance", "0.5"}};
+    nine.pairs[0].settings = {{"tolerance", "0.002"}}; // takes minutes
+    tss::saveScene(nine, folder / "in.tss");
     const tss::Stopwatch watch;
-    const Ran ran = runTss("bake in.tss -o out.tss --json --budget 8", folder.path());
+    const Ran ran = runTss("bake in.tss -o out.tss --json --budget 12", folder.path());
     INFO(ran.err);
     CHECK(watch.seconds() < 60);
     CHECK(ran.exit == 1);
-    CHECK(ran.err.find("the budget of 8 s ended first\n") != std::string::npos);
-    CHECK(ran.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss --budget 8\n") !=
+    CHECK(ran.err.find("the budget of 12 s ended first\n") != std::string::npos);
+    CHECK(ran.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss --budget 12\n") !=
           std::string::npos);
     const Json result = Json::parse(ran.out);
     CHECK(result["complete"] == false);
-    CHECK(result["missing"] == Json::array({"/two/one"}));
+    CHECK(result["missing"] == Json::array({"/nine/to_a"}));
     CHECK(result["failures"].empty());
     CHECK_FALSE(exists(folder / "out.tss"));
     const tss::SceneModel kept = tss::loadScene(folder / "out.incomplete.tss");
@@ -143,9 +156,21 @@ TEST_CASE("a bake whose budget ends keeps what was reached, whatever comes first
     const Ran on = runTss("bake out.incomplete.tss -o out.tss --tolerance 0.5 --budget 1000", folder.path());
     INFO(on.err);
     REQUIRE(on.exit == 0);
-    CHECK(on.out.find("1 of 2 baked already") != std::string::npos);
-    REQUIRE(runTss("bake two.tss -o whole.tss --tolerance 0.5", folder.path()).exit == 0);
+    CHECK(on.out.find("8 of 9 baked already") != std::string::npos);
+    REQUIRE(runTss("bake nine.tss -o whole.tss --tolerance 0.5", folder.path()).exit == 0);
     CHECK(readText(folder / "out.tss") == readText(folder / "whole.tss"));
+}
+
+TEST_CASE("few pairs are all baked to their end: a budget is that of their searches") {
+    const Folder folder;
+    writeTwo(folder);
+    const Ran ran = runTss("bake two.tss -o out.tss --tolerance 0.5 --budget 0.001", folder.path());
+    INFO(ran.err);
+    REQUIRE(ran.exit == 0);
+    for (const tss::Pair& pair : tss::loadScene(folder / "out.tss").pairs) {
+        CHECK(pair.table);
+        CHECK(pair.settings.at("budget") == "0.001");
+    }
     CHECK(runTss("bake two.tss -o x.tss --budget -1", folder.path()).exit == 2);
 }
 
