@@ -20,8 +20,7 @@ std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vecto
 
 BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& until) : until_(until) {
     for (const std::size_t item : order) waiting_.push_back({item, 0});
-    constexpr std::size_t few = 8;
-    if (waiting_.size() <= few) ++round_; // no brief turns
+    if (waiting_.size() <= fewToBake) ++round_; // no brief turns
     beginRound();
 }
 

@@ -12,6 +12,9 @@ namespace tss {
 /// nearest at rest first. Numbers in scene.pairs.
 std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vector<std::size_t>& wanted);
 
+/// Of so few pairs and skins none has a brief turn, and `tss bake --budget` cuts none short.
+constexpr std::size_t fewToBake = 8;
+
 /// What is baked next, and until when. Without a time limit each item has one turn without one. With one
 /// there are rounds, for how long an item takes is not known beforehand: where more than eight wait, brief
 /// turns of a hundredth of the time, for half of it at most, so that what is quick is done; then turns of a

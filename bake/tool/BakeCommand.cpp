@@ -3,6 +3,7 @@
 #include "bake/base/Words.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/pipeline/Bake.h"
+#include "bake/pipeline/BakeTurns.h"
 #include "bake/pipeline/CheckBake.h"
 #include "bake/scene/AllPairs.h"
 #include "bake/scene/SceneFile.h"
@@ -191,12 +192,11 @@ Json only(Json summary, const std::vector<std::string>& paths) {
 /// Few pairs and skins are all wanted: each is baked to its end, and the budget is that of its search for
 /// tests. Of many it is the time of the whole bake.
 void setBudget(const SceneModel& scene, BakeArguments& arguments) {
-    constexpr std::size_t few = 8;
     if (!arguments.budget) return;
     BakeRequest& request = arguments.request;
     const std::size_t count =
         request.pairs.empty() ? scene.pairs.size() + scene.skins.size() : request.pairs.size();
-    if (*arguments.budget == 0 || count <= few)
+    if (*arguments.budget == 0 || count <= fewToBake)
         request.given["budget"] = fmt::format("{}", *arguments.budget);
     else
         request.until = Deadline(*arguments.budget);
