@@ -73,7 +73,7 @@ public:
         else
             plan.contact = findRestContact({a_, surfaceA_}, {b_, surfaceB_}, motion_, touching,
                                            {reach(), std::min(reach(), mostExemptDistance()),
-                                            std::min(1.5 * options_.epsilon, mostExemptDistance()), 1000},
+                                            std::min(1.5 * options_.epsilon, mostExemptDistance()), step()},
                                            progress_);
         if (plan.contact.clearance > 0) {
             plan.entered = {enters(surfaceB_, b_.mesh(), a_, bToA_, touching),
@@ -90,6 +90,10 @@ public:
 
 private:
     double reach() const { return 2.5 * options_.tolerance + options_.epsilon; }
+
+    /// Spheres of both bodies stick out by two tolerances together and have a gap of epsilon. Of surfaces
+    /// that come as near as that some are within reach() at a pose no more than half a step away.
+    double step() const { return options_.tolerance; }
 
     double mostExemptDistance() const {
         return closeShare * std::min(diagonal(a_.mesh()), diagonal(b_.mesh()));

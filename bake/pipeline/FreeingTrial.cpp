@@ -109,6 +109,7 @@ void FreeingTrial::findStops(const TriangleMesh& a, const TriangleMesh& b) {
     RestContactOptions options;
     options.reach = margin_;
     options.close = options.near = margin_ / 2;
+    options.step = margin_;
     options.size = size_ / 200;
     options.poses = 200;
     const RestRegion region = findRestContact(surfaceA, surfaceB, motion_, touchingDistance(a, b, motion_),

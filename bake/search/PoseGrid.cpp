@@ -56,6 +56,7 @@ PoseGrid::PoseGrid(const Motion& motion, const TriangleMesh& meshB, double step,
     while (count() > most) {
         double& largest = *std::max_element(steps.begin(), steps.end());
         if (largest <= 1) break;
+        fine_ = false;
         largest = std::floor(largest * 0.9);
     }
     std::size_t size = 1;

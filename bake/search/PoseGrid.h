@@ -9,9 +9,12 @@ class PoseGrid {
 public:
     PoseGrid() = default;
 
-    /// As fine as moves no point of B by more than `step` from one pose to the next, in at most about `most`
-    /// poses.
+    /// As fine as moves no point of B by more than `step`, scene units, from one pose to the next, or in
+    /// about `most` poses where that would be more.
     PoseGrid(const Motion& motion, const TriangleMesh& meshB, double step, int most);
+
+    /// No point of B moves by more than `step` from one pose to the next; else that would be too many poses.
+    bool fine() const { return fine_; }
 
     std::size_t rest() const { return rest_; }
     std::vector<double> pose(std::size_t at) const;
@@ -31,6 +34,7 @@ private:
     const Motion* motion_ = nullptr;
     std::vector<std::vector<double>> values_; ///< per DOF, rising
     std::size_t rest_ = 0;
+    bool fine_ = true;
     std::vector<char> free_;
 };
 

@@ -59,7 +59,7 @@ public:
         }
         seedAtRest();
         growOverGrid();
-        growBetweenGridPoses();
+        if (!grid_.fine()) growBetweenGridPoses();
         addCloseParts();
         result.region.a = a_.parts.merged();
         result.region.b = b_.parts.merged();
@@ -182,9 +182,10 @@ private:
 
     /// From pose to pose over the grid, outwards from rest through free poses (breadth first).
     void growOverGrid() {
-        grid_ = PoseGrid(motion_, b_.own.mesh(), options_.reach, options_.poses);
-        std::vector<std::size_t> next = grid_.neighbours(grid_.rest());
+        grid_ = PoseGrid(motion_, b_.own.mesh(), options_.step, options_.poses);
+        grow({grid_.pose(grid_.rest())});
         grid_.setFree(grid_.rest());
+        std::vector<std::size_t> next = grid_.neighbours(grid_.rest());
         for (int looked = 0; !next.empty() && looked < 4 * options_.poses;) {
             if (!report(progress_, "contact at rest", grid_.share())) return;
             std::vector<std::vector<double>> poses;

@@ -21,7 +21,7 @@ struct Both {
 
     RestContact find(const Motion& motion, double reach, double close = -1) const {
         return findRestContact(sideA, sideB, motion, touchingDistance(a.mesh(), b.mesh(), motion),
-                               {reach, close < 0 ? reach : close, 0, 400});
+                               {reach, close < 0 ? reach : close, 0, reach, 400});
     }
 };
 
@@ -86,6 +86,28 @@ TEST_CASE("the region grows along the motion as far as the contact that was ther
     CHECK(a.max().z() < 0.01); // the wall itself is not excepted
     const RestContact still = both.find(Motion{}, 0.1);
     CHECK(area(both.a.mesh(), still.region.a) < 0.6 * area(both.a.mesh(), rest.region.a));
+}
+
+TEST_CASE("what comes near between two poses that are looked at is of the region") {
+    // A comb of thin teeth slides over a bar that it is sunk into: between two poses a tooth covers a strip
+    // that it covers at neither.
+    TriangleMesh comb = boxMesh({-0.5, -0.5, 0.5}, {0.5, 0.5, 1});
+    for (int k = 0; k < 2; ++k) append(comb, boxMesh({k - 0.5, -0.5, -0.05}, {k - 0.48, 0.5, 0.5}));
+    const Both both(boxMesh({-5, -1, -1}, {5, 1, 0}), comb);
+    const double reach = 0.05, step = 0.02;
+    const Motion motion = sliding({1, 0, 0}, -2, 2);
+    const RestContact rest =
+        findRestContact(both.sideA, both.sideB, motion, 1e-9, {reach, reach, 0, step, 400});
+    PartSet region;
+    for (const SurfacePart& part : rest.region.a) region.insert(part);
+    std::mt19937_64 random(5);
+    const Progress progress;
+    Poll poll(progress, "");
+    for (int k = 0; k < 40; ++k) {
+        const std::vector<double> q{std::uniform_real_distribution<>(-2, 2)(random)};
+        const Pose bToA = pose(motion, q);
+        CHECK(both.sideA.meeting(both.sideB, bToA.inverse(), reach - step / 2, 1e-4, region, poll).empty());
+    }
 }
 
 TEST_CASE("what is near at rest without touching is no part of the region") {
