@@ -94,6 +94,12 @@ void ContactSurface::visitPart(const Query& query, SurfacePart part, const Corne
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
     Centre centre{query.toOther * middle, radius + query.reach, parent};
+    const std::array<SurfacePart, 2> parts = halves(part);
+    const std::array<Corners, 2> both = halves(corners);
+    if (query.known.reaches(part) && part.cuts > 1) {
+        for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], parent, found);
+        return;
+    }
     const double distance = query.other.solid_.boundary().distance(centre.position, centre.distance);
     if (!std::isfinite(distance)) {
         if (isInside(query, centre)) found.push_back(part);
@@ -105,8 +111,6 @@ void ContactSurface::visitPart(const Query& query, SurfacePart part, const Corne
         found.push_back(part);
         return;
     }
-    const std::array<SurfacePart, 2> parts = halves(part);
-    const std::array<Corners, 2> both = halves(corners);
     for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], &centre, found);
 }
 
