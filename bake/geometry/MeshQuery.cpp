@@ -14,7 +14,7 @@
 
 namespace tss {
 
-MeshQuery::MeshQuery(const TriangleMesh& mesh) {
+MeshQuery::MeshQuery(const TriangleMesh& mesh, bool closed) : closed_(closed) {
     checkIndices(mesh);
     Eigen::AlignedBox3d all;
     for (const Tri& t : mesh.triangles)
@@ -236,8 +236,7 @@ double MeshQuery::exactWinding(const Vec3& local) const {
     return sum / (4 * std::numbers::pi);
 }
 
-int MeshQuery::crossings(const Vec3& local) const {
-    const Vec3 along(1, 0.6180339887498949, 0.4142135623730951); // along no axis and no diagonal of a grid
+int MeshQuery::crossings(const Vec3& local, const Vec3& along) const {
     const Vec3 inverse = along.cwiseInverse();
     const auto meets = [&](std::uint32_t index) {
         const Bvh::Node& node = bvh_.nodes[index];
@@ -277,7 +276,9 @@ int MeshQuery::crossings(const Vec3& local) const {
 
 double MeshQuery::windingNumber(const Vec3& p) const {
     const Vec3 local = p - origin_;
-    const int crossed = crossings(local);
+    // Along no axis and no diagonal of a grid.
+    const int crossed = crossings(local, {1, 0.6180339887498949, 0.4142135623730951});
+    if (closed_ && crossings(local, {1, -0.3027756377319946, 0.7320508075688772}) == crossed) return crossed;
     for (const double beta : {2.0, 6.0}) {
         const double w = approximateWinding(local, beta);
         if (std::abs(w - crossed) <= 0.2) return w;

@@ -17,7 +17,8 @@ struct ClosestPoint {
 class MeshQuery {
 public:
     /// Throws InputError as checkIndices() does. An empty list of triangles is allowed: nothing is ever near.
-    explicit MeshQuery(const TriangleMesh& mesh);
+    /// closed: triangles with an area run through every edge equally often in both directions.
+    explicit MeshQuery(const TriangleMesh& mesh, bool closed = false);
 
     std::size_t triangleCount() const { return corners_.size(); }
 
@@ -43,8 +44,9 @@ public:
 
     /// The generalised winding number of the mesh about p: 1 inside a closed mesh, 2 where two closed
     /// components overlap, 0 outside, -1 in an inverted mesh, a fraction about an open one (Jacobson 2013).
-    /// Far triangles count by their dipole (Barill 2018), nearer ones too where a ray says that this is
-    /// right: many shells on one another add up to much. What is neither is summed exactly.
+    /// Of a mesh known to be closed what two rays say, where they agree. Else far triangles count by their
+    /// dipole (Barill 2018), nearer ones too where a ray says that this is right: many shells on one another
+    /// add up to much. What is neither is summed exactly.
     double windingNumber(const Vec3& p) const;
 
     /// |winding number| >= 1/2: inside the union of the components, whichever way they are oriented.
@@ -82,11 +84,12 @@ private:
     double solidAngleOf(std::uint32_t triangle, const Vec3& local) const;
     double exactWinding(const Vec3& local) const;
     /// By how much the exits of a ray from `local` outnumber its entries: the winding number where the mesh
-    /// is closed and the ray runs along no edge.
-    int crossings(const Vec3& local) const;
+    /// is closed and the ray runs along no edge. along: its direction, with 1 for x.
+    int crossings(const Vec3& local, const Vec3& along) const;
     /// Barill's approximation: a node farther away than beta of its radii counts by its dipole.
     double approximateWinding(const Vec3& local, double beta) const;
 
+    bool closed_;
     Vec3 origin_ = Vec3::Zero();
     std::vector<Corners> corners_; ///< one per triangle, about origin_
     Bvh bvh_;

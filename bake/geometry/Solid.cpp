@@ -90,19 +90,24 @@ struct Openings {
     double widest = 0; ///< width of the widest crack, scene units; 0 where all are below weldShare
 };
 
+/// The edges of all triangles but those without area, segments or points, which bound nothing and have no
+/// opening either.
+std::vector<EdgeUse> usedEdges(const TriangleMesh& mesh) {
+    std::vector<EdgeUse> edges;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (hasZeroArea(mesh, i)) continue;
+        const Tri& t = mesh.triangles[i];
+        for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
+    }
+    return edges;
+}
+
 class FindOpenings {
 public:
     explicit FindOpenings(const TriangleMesh& mesh) : mesh_(mesh), least_(weldShare * diagonal(mesh)) {}
 
     Openings run() {
-        std::vector<EdgeUse> edges;
-        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-            // A zero-area triangle is a segment or a point: it bounds nothing and has no opening either.
-            if (hasZeroArea(mesh_, i)) continue;
-            const Tri& t = mesh_.triangles[i];
-            for (int k = 0; k < 3; ++k) edges.push_back(edgeUse(t[k], t[(k + 1) % 3], 1));
-        }
-        found_.rims = unbalanced(std::move(edges));
+        found_.rims = unbalanced(usedEdges(mesh_));
         if (found_.rims.empty()) return std::move(found_);
         // First vertices that count as one are joined, so that the edges divided next have unique ends.
         const std::vector<int> place = OpenVertices(mesh_, found_.rims, least_).representatives();
@@ -216,13 +221,19 @@ TriangleMesh closingFans(const TriangleMesh& mesh, const Openings& openings) {
     return fans;
 }
 
+/// Triangles with an area run through every edge equally often in both directions.
+bool isClosed(const TriangleMesh& mesh) {
+    return unbalanced(usedEdges(mesh)).empty();
+}
+
 } // namespace
 
 Solid::Solid(const TriangleMesh& mesh, Interior interior)
     : mesh_((checkIndices(mesh), mesh)), hollow_(interior == Interior::Hollow), boundary_(TriangleMesh()) {
     const Openings openings = FindOpenings(mesh).run();
     open_ = !openings.rims.empty() || openings.widest > 0;
-    boundary_ = MeshQuery(hollow_ || !open_ ? mesh_ : joined(mesh_, closingFans(mesh_, openings)));
+    const TriangleMesh boundary = hollow_ || !open_ ? mesh_ : joined(mesh_, closingFans(mesh_, openings));
+    boundary_ = MeshQuery(boundary, !hollow_ && isClosed(boundary));
     assumptions_ = describe(mesh_, openings, hollow_);
     const Eigen::AlignedBox3d box = bounds(mesh_);
     if (!box.isEmpty()) diagonal_ = box.diagonal().norm();

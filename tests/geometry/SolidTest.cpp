@@ -1,6 +1,7 @@
 #include "bake/geometry/Solid.h"
 
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/TrianglePoint.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <array>
@@ -46,6 +47,40 @@ TEST_CASE("the winding number about any heap of triangles and its fans is an int
         const double w = solid.boundary().windingNumber(uniformPoint(random, 1.3));
         CHECK(std::abs(w - std::round(w)) < 0.2);
     }
+}
+
+TEST_CASE("the winding number of a closed mesh is that of all its solid angles, also where a ray meets a "
+          "corner or edge") {
+    std::mt19937_64 random(11);
+    TriangleMesh mesh = lumpyMesh(random, 3, 0.3);
+    append(mesh, turnedInsideOut(transformed(mesh, Eigen::Affine3d(Eigen::Translation3d(0.7, 0.2, 0)))));
+    append(mesh, boxMesh({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+    append(mesh, boxMesh({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}));
+    const Solid solid(mesh);
+    REQUIRE_FALSE(solid.open());
+    std::vector<Vec3> points;
+    for (int i = 0; i < 2000; ++i) points.push_back(uniformPoint(random, 1.5));
+    for (int i = 0; i < 2000; ++i) {
+        const Corners c = mesh.corners(random() % mesh.triangles.size());
+        const Vec3 on = i % 2 == 0 ? c[0] : Vec3(0.25 * c[0] + 0.75 * c[1]);
+        const Vec3 along = i % 4 < 2 ? Vec3(1, 0.6180339887498949, 0.4142135623730951)
+                                     : Vec3(1, -0.3027756377319946, 0.7320508075688772);
+        points.push_back(on - std::exp2(-double(i % 20)) * along);
+    }
+    int in = 0;
+    for (const Vec3& p : points) {
+        if (solid.boundary().distance(p) < 1e-9) continue;
+        double sum = 0;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const Corners c = mesh.corners(t);
+            sum += solidAngle(p, c[0], c[1], c[2]);
+        }
+        const double number = std::round(sum / (4 * std::numbers::pi));
+        in += number != 0;
+        CHECK(solid.boundary().windingNumber(p) == Approx(number).margin(0.2));
+        CHECK(solid.inside(p) == (number != 0));
+    }
+    CHECK(in > 500);
 }
 
 TEST_CASE("seams and T-junctions are no openings, and cracks are closed along them") {
