@@ -18,10 +18,6 @@ constexpr int usualRounds = 8, mostRounds = 32;
 /// Rounds in a row that leave the planes violated no less: they demand more than the skin can give.
 constexpr int mostStalled = 3;
 
-/// A displacement beyond this many times the deepest violation and the foundation's length counts as
-/// diverged: skin thrown far off touches nothing, so that its residual looks like success.
-constexpr float mostMove = 2;
-
 /// Of the foundation's length: where a plane's point has slid along the skin by more, a push at its old place
 /// hardly moves the new one, and the plane is replaced; and it tells nothing of what is met so far from where
 /// it was found.
@@ -244,8 +240,6 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
     clear();
     queryAll(scene);
     if (violated_.empty()) return 0;
-    const float deepest = deepestViolation();
-    const float mostMoved = mostMove * (deepest + static_cast<float>(rig_.foundation.length));
     float last = std::numeric_limits<float>::max(), least = last;
     best_.clear();
     for (int round = 1, stalled = 0;; ++round) {
@@ -253,13 +247,12 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         {
             const SkinClock::Scope scope(clock_, SkinPart::Pushes);
             addDeepest();
-            pushes_.solve(planes_, scene.carried, deepest, rig_.parameters.iterations);
+            pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
             applied_ = planes_;
             pushing = apply(scene, applied_);
         }
         const float lack = queryDisplaced(scene), now = std::max(lack, deepestViolation());
-        const bool diverged = farthest_ > mostMoved;
-        if (!diverged && now < least) {
+        if (now < least) {
             least = now;
             best_.swap(applied_);
         }
@@ -268,7 +261,7 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         const int rounds = now > unseen ? mostRounds : usualRounds;
         if (round < rounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
         // Where bones press from two sides the last result may be worse than an earlier one.
-        return limited(scene, diverged || now > least ? apply(scene, best_) : pushing);
+        return limited(scene, now > least ? apply(scene, best_) : pushing);
     }
 }
 

@@ -10,10 +10,6 @@ namespace {
 /// Regularisation: this share of each diagonal element is added to it, so that the pushes of contradicting
 /// planes stay bounded.
 constexpr float regularisation = 0.003f;
-/// A push may move its own point by no more than this many times the deepest violation before any push:
-/// pushes of contradicting planes would grow without bounds, and planes whose normals were updated where
-/// earlier pushes had displaced the skin too far demand too much.
-constexpr float mostPush = 15;
 
 } // namespace
 
@@ -120,8 +116,8 @@ void SkinPushes::clear() {
     before_.clear();
 }
 
-/// Sets up the problem for the planes' current normals and levels: demand, matrix, bounds and residual.
-void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest) {
+/// Sets up the problem for the planes' current normals and levels: demand, matrix and residual.
+void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
     const std::size_t count = planes.size(), whole = (count + 3) / 4 * 4;
     demand_.assign(whole, 0);
     for (std::vector<float>& normals : normals_) normals.assign(whole, 0);
@@ -134,7 +130,6 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
     }
     lack_ = demand_;
     matrix_.resize(coupling_.size());
-    upperBound_.resize(count);
     for (std::size_t r = 0; r < count; ++r) {
         const Eigen::Vector3f& normal = planes[r].normal;
         for (std::uint32_t e = rowStart_[r]; e < rowStart_[r + 1]; ++e) {
@@ -144,12 +139,9 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
                 (normal[1] * blockAt(normals_[1], first) + normal[2] * blockAt(normals_[2], first));
             matrix_[e] = coupling_[e] * facing;
         }
-        upperBound_[r] = self_[r] > 0 ? mostPush * deepest / self_[r] : 0;
     }
-    for (std::size_t r = 0; r < count; ++r) {
-        planes[r].push = std::min(planes[r].push, upperBound_[r]);
+    for (std::size_t r = 0; r < count; ++r)
         if (planes[r].push > 0) addPush(r, planes[r].push);
-    }
 }
 
 /// Updates the residual for a change of one push.
@@ -169,8 +161,7 @@ float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
         const std::size_t r =
             backwards ? planes.size() - 1 - k : k; // alternating, so that neither end is favoured
         if (!(self_[r] > 0)) continue;             // no vertex of it can move
-        const float next =
-            std::clamp(planes[r].push + lack_[r] / ((1 + regularisation) * self_[r]), 0.0f, upperBound_[r]);
+        const float next = std::max(planes[r].push + lack_[r] / ((1 + regularisation) * self_[r]), 0.0f);
         const float change = next - planes[r].push;
         if (change == 0) continue;
         largest = std::max(largest, std::abs(change) * self_[r]);
@@ -180,12 +171,12 @@ float SkinPushes::sweep(std::span<SkinPlane> planes, bool backwards) {
     return largest;
 }
 
-void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps) {
+void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps) {
     if (planes.size() > self_.size()) {
         addColumns(planes);
         addCouplings();
     }
-    prepare(planes, base, deepest);
+    prepare(planes, base);
     for (int done = 0; done < sweeps && sweep(planes, done % 2 != 0) > settled;) ++done;
 }
 

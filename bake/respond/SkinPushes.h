@@ -18,9 +18,8 @@ public:
 
     /// Solves for the pushes of the planes, starting from those they have. base: skin before any push. The
     /// planes of the last call since clear() come first, and may have changed in normal and level only.
-    /// deepest: the largest violation before any push, which bounds the pushes. sweeps: most iterations; they
-    /// end early when no vertex moves any more.
-    void solve(std::span<SkinPlane> planes, std::span<const Move> base, float deepest, int sweeps);
+    /// sweeps: most iterations; they end early when no vertex moves any more.
+    void solve(std::span<SkinPlane> planes, std::span<const Move> base, int sweeps);
 
     /// Adds the displacements by the planes' pushes to #touched positions, and marks their blocks. Returns
     /// how many planes have a push.
@@ -46,7 +45,7 @@ private:
     };
     void addColumns(std::span<const SkinPlane> planes);
     void addCouplings();
-    void prepare(std::span<SkinPlane> planes, std::span<const Move> base, float deepest);
+    void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
     void addPush(std::size_t r, float change);
     Four blockAt(const std::vector<float>& values, std::uint32_t first) const {
         return Eigen::Map<const Four>(values.data() + first);
@@ -71,7 +70,6 @@ private:
     std::vector<std::uint32_t> firstColumn_; ///< of each block
 
     // Per plane; those read in blocks are padded to whole blocks of four.
-    std::vector<float> upperBound_;             ///< of the push
     std::vector<float> demand_;                 ///< violation before any push (right-hand side), padded
     std::vector<float> lack_;                   ///< violation with the current pushes (residual), padded
     std::array<std::vector<float>, 3> normals_; ///< x, y and z, padded

@@ -43,7 +43,7 @@ std::pair<float, float> pushed(const SkinRig& rig, const std::array<Eigen::Vecto
         planes[k].normal = ways[k];
         planes[k].level = ways[k].dot(scene.carried[nearest].head<3>()) + by;
     }
-    pushes.solve(planes, scene.carried, by, 60);
+    pushes.solve(planes, scene.carried, 60);
     pushes.apply(planes, scene.skin, blocks);
     const float before = leastArea(rig, scene);
     CHECK(SkinTurnLimit(rig).limit(scene, pushes, blocks));
