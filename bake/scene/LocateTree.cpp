@@ -1,15 +1,11 @@
 #include "bake/scene/ReadTree.h"
-#include "bake/scene/SaxTokens.h"
-
-#include <nlohmann/json.hpp>
+#include "bake/scene/SaxReader.h"
 
 #include <map>
 
 namespace tss {
 
 namespace {
-
-using Json = nlohmann::json;
 
 /// The wanted pointers as a tree of their keys.
 struct Wanted {
@@ -18,28 +14,16 @@ struct Wanted {
 };
 
 /// Walks along the wanted values and passes over all others.
-class Locator : public SaxTokens {
+class Locator : public SaxReader<Locator> {
 public:
-    Locator(std::string_view text, Wanted& root) : SaxTokens(text, true), next_(&root) {
-        const CountingIterator all{&cursor};
-        Json::sax_parse(all, all, this);
+    Locator(std::string_view text, Wanted& root) : SaxReader(text, true), next_(&root) {
+        parse(Json::input_format_t::json);
     }
 
-    bool null() { return value(); }
-    bool boolean(bool) { return value(); }
-    bool number_integer(std::int64_t) { return value(true); }
-    bool number_unsigned(std::uint64_t) { return value(true); }
-    bool number_float(double, const std::string&) { return value(true); }
-    bool string(const std::string&) { return value(); }
-    bool binary(const Json::binary_t&) { return false; }
-    bool start_object(std::size_t) { return open(false); }
-    bool start_array(std::size_t) { return open(true); }
-    bool end_object() { return close(); }
-    bool end_array() { return close(); }
-    bool key(const std::string& key) {
-        next_ = find(key);
-        return done(Event::Key);
-    }
+    void add(const Value&) { place(); }
+    void open(bool object, std::size_t) { levels_.push_back({place(), !object}); }
+    void enter(const std::string& key) { next_ = find(key); }
+    void close() { levels_.pop_back(); }
     bool parse_error(std::size_t, const std::string&, const Json::exception&) {
         place(); // where a value would have been
         return false;
@@ -68,26 +52,13 @@ private:
         return wanted;
     }
 
-    bool value(bool isNumber = false) {
-        place();
-        return done(Event::Value, isNumber);
-    }
-    bool open(bool array) {
-        levels_.push_back({place(), array});
-        return done(Event::Open);
-    }
-    bool close() {
-        levels_.pop_back();
-        return done(Event::Value);
-    }
-
     std::vector<Level> levels_;
     Wanted* next_; ///< what the next value is, null when it is not wanted
 };
 
 std::vector<std::string> keysOf(const std::string& pointer) {
     std::vector<std::string> keys;
-    for (Json::json_pointer left(pointer); !left.empty(); left.pop_back())
+    for (nlohmann::json::json_pointer left(pointer); !left.empty(); left.pop_back())
         keys.insert(keys.begin(), left.back());
     return keys;
 }

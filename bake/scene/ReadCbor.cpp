@@ -1,5 +1,6 @@
 #include "bake/scene/ReadTree.h"
 #include "bake/scene/SaxReader.h"
+#include "bake/scene/TreeBuilder.h"
 #include "bake/scene/Utf8.h"
 
 #include <cmath>
@@ -12,13 +13,14 @@ constexpr std::string_view selfDescribing = "\xD9\xD9\xF7"; // CBOR's tag 55799
 
 /// CBOR of the kinds that JSON has. nlohmann reads more than that (tags, byte strings, indefinite lengths),
 /// believes counts, and wraps integers below -2^63.
-class CborReader : public SaxReader {
+class CborReader : public SaxReader<CborReader> {
 public:
-    CborReader(std::string_view text, const std::string& file) : SaxReader(text, file, false) {}
+    CborReader(std::string_view text, const std::string& file)
+        : SaxReader(text, false), tree_(file, text.size()) {}
 
     Value read() {
-        if (cursor.text.starts_with(selfDescribing)) cursor.at = end_ = selfDescribing.size();
-        parse(*this, Json::input_format_t::cbor);
+        if (cursor_.text.starts_with(selfDescribing)) cursor_.at = end_ = selfDescribing.size();
+        parse(Json::input_format_t::cbor);
         return tree_.take();
     }
 
@@ -28,33 +30,32 @@ public:
     }
     bool number_float(double number, const std::string& text) {
         if (!std::isfinite(number))
-            refuse("a finite number (\"inf\", \"-inf\", \"nan\" are texts)", cursor.at);
+            refuse("a finite number (\"inf\", \"-inf\", \"nan\" are texts)", cursor_.at);
         // One spelling for each number, so that an integer is an integer however it came.
         return SaxReader::number_float(number, text);
     }
     bool string(const std::string& text) {
         check(text);
-        return add(Value(text));
+        return SaxReader::string(text);
     }
     bool binary(const Json::binary_t&) { refuse("no byte strings and no tags", end_ + 1); }
-    bool start_object(std::size_t count) {
-        tree_.open(true);
-        check(count, 2);
-        return done(Event::Open);
+
+    template <class T>
+    void add(T&& value) {
+        tree_.add(std::forward<T>(value));
     }
-    bool start_array(std::size_t count) {
-        tree_.open(false);
-        check(count, 1);
-        return done(Event::Open);
+    void open(bool object, std::size_t count) {
+        tree_.open(object);
+        check(count, object ? 2 : 1);
     }
-    bool key(const std::string& key) {
+    void enter(const std::string& key) {
         check(key);
         tree_.key(key);
-        return done(Event::Key);
     }
+    void close() { tree_.close(); }
 
     bool parse_error(std::size_t, const std::string&, const Json::exception& error) {
-        const std::size_t size = cursor.text.size();
+        const std::size_t size = cursor_.text.size();
         if (std::string_view(error.what()).find(": expected end of input") != std::string_view::npos)
             refuse("the end of the file after the scene", end_);
         if (end_ >= size) refuse("1 more bytes", end_);
@@ -71,7 +72,7 @@ public:
 private:
     enum Major { Unsigned, Negative, Bytes, Text, Array, Map, Tag, Simple };
 
-    std::uint8_t byteAt(std::size_t at) const { return static_cast<std::uint8_t>(cursor.text[at]); }
+    std::uint8_t byteAt(std::size_t at) const { return static_cast<std::uint8_t>(cursor_.text[at]); }
     // Of the item that begins where the last event ended:
     Major major() const { return static_cast<Major>(byteAt(end_) >> 5); }
     int low() const { return byteAt(end_) & 31; }
@@ -94,13 +95,15 @@ private:
     /// A count of items that each take at least `bytesEach`, before any is read.
     void check(std::uint64_t count, std::size_t bytesEach) const {
         if (low() > 27) refuse("a definite length", end_ + 1);
-        if (count > (cursor.text.size() - cursor.at) / bytesEach) refuseCount(count);
+        if (count > (cursor_.text.size() - cursor_.at) / bytesEach) refuseCount(count);
     }
 
     void check(const std::string& text) const {
         if (low() > 27) refuse("a definite length", end_ + 1);
         if (!isUtf8(text)) refuse("text in UTF-8", headEnd());
     }
+
+    TreeBuilder tree_;
 };
 
 } // namespace

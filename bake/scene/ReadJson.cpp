@@ -1,6 +1,7 @@
 #include "bake/scene/Problems.h"
 #include "bake/scene/ReadTree.h"
 #include "bake/scene/SaxReader.h"
+#include "bake/scene/TreeBuilder.h"
 
 #include <algorithm>
 #include <charconv>
@@ -25,35 +26,33 @@ constexpr BadToken badTokens[] = {
     {"invalid number", "a digit"}};
 
 /// JSON to the letter of RFC 8259.
-class JsonReader : public SaxReader {
+class JsonReader : public SaxReader<JsonReader> {
 public:
-    JsonReader(std::string_view text, const std::string& file) : SaxReader(text, file, true) {}
+    JsonReader(std::string_view text, const std::string& file)
+        : SaxReader(text, true), tree_(file, text.size()) {}
 
     Value read() {
-        const std::string_view text = cursor.text;
+        const std::string_view text = cursor_.text;
         if (text.starts_with("\xEF\xBB\xBF")) fault("no byte order mark at the beginning", 0);
-        parse(*this, Json::input_format_t::json);
+        parse(Json::input_format_t::json);
         // nlohmann takes a NUL byte for the end.
         if (const auto nul = text.find('\0', end_); nul != text.npos)
             fault("nothing more after the value", nul);
         return tree_.take();
     }
 
-    bool string(const std::string& text) { return add(Value(text)); }
-    bool binary(const Json::binary_t&) { return false; } // JSON has none
-    bool start_object(std::size_t) {
-        located([&] { tree_.open(true); });
-        return done(Event::Open);
+    template <class T>
+    void add(T&& value) {
+        tree_.add(std::forward<T>(value));
     }
-    bool start_array(std::size_t) {
-        located([&] { tree_.open(false); });
-        takePlainNumbers();
-        return done(Event::Open);
+    void open(bool object, std::size_t) {
+        located([&] { tree_.open(object); });
+        if (!object) takePlainNumbers();
     }
-    bool key(const std::string& key) {
+    void enter(const std::string& key) {
         located([&] { tree_.key(key); });
-        return done(Event::Key);
     }
+    void close() { tree_.close(); }
 
     bool parse_error(std::size_t, const std::string& token, const Json::exception& error) {
         const std::string_view says = error.what();
@@ -67,10 +66,10 @@ public:
         if (rest.starts_with("object -")) fault(", or } after a member", tokenStart(false));
         const std::size_t start = tokenStart();
         const bool key = rest.starts_with("object key");
-        if (!key || (start < cursor.text.size() && cursor.text[start] == '"'))
+        if (!key || (start < cursor_.text.size() && cursor_.text[start] == '"'))
             for (const BadToken& bad : badTokens)
                 if (rest.substr(rest.find(" - ") + 3).starts_with(bad.theirs))
-                    fault(std::string(bad.expected), cursor.ended ? cursor.text.size() : cursor.at - 1);
+                    fault(std::string(bad.expected), cursor_.ended ? cursor_.text.size() : cursor_.at - 1);
         fault(key ? "a key in double quotes" : "a value", start);
     }
 
@@ -79,7 +78,7 @@ private:
     /// array begins with, each with a comma and another number behind it. Whatever is not plainly such a
     /// number is left to the parser, which knows what to say of it.
     void takePlainNumbers() {
-        const char *const begin = cursor.text.data(), *const end = begin + cursor.text.size();
+        const char *const begin = cursor_.text.data(), *const end = begin + cursor_.text.size();
         const auto space = [&](const char* at) {
             while (at < end && (*at == ' ' || *at == '\n' || *at == '\r' || *at == '\t')) ++at;
             return at;
@@ -89,7 +88,7 @@ private:
             at += at < end && *at == '-';
             return isDigit(at) && (*at != '0' || !isDigit(at + 1));
         };
-        const char* at = space(begin + cursor.at);
+        const char* at = space(begin + cursor_.at);
         while (isNumber(at)) {
             double number = 0;
             const auto [stop, error] = std::from_chars(at, end, number);
@@ -102,10 +101,10 @@ private:
                 break; // -0 is the integer 0
             const char* const comma = space(stop);
             if (comma == end || *comma != ',' || !isNumber(space(comma + 1))) break;
-            tree_.addNumber(number);
+            tree_.add(number);
             at = space(comma + 1);
         }
-        cursor.at = static_cast<std::size_t>(at - begin);
+        cursor_.at = static_cast<std::size_t>(at - begin);
     }
 
     /// A refusal by the tree is of the token that has just been read.
@@ -114,20 +113,20 @@ private:
         try {
             step();
         } catch (const InputError& error) {
-            throw LocatedError(error, positionOf(cursor.text, tokenStart()));
+            throw LocatedError(error, positionOf(cursor_.text, tokenStart()));
         }
     }
 
     std::string found(std::size_t at) const {
-        if (at >= cursor.text.size()) return "the end of the file";
-        const char c = cursor.text[at];
+        if (at >= cursor_.text.size()) return "the end of the file";
+        const char c = cursor_.text[at];
         if (c == '\0') return "a NUL byte";
         if (c > ' ' && c < '\x7F') return std::string("'") + c + "'";
         return "byte " + std::to_string(static_cast<unsigned char>(c));
     }
 
     [[noreturn]] void fault(const std::string& expected, std::size_t at) const {
-        const TextPosition position = positionOf(cursor.text, at);
+        const TextPosition position = positionOf(cursor_.text, at);
         try {
             tree_.refuse(joined("expected JSON: ", expected, ", found ", found(at), " at line ",
                                 position.line, ", column ", position.column));
@@ -135,6 +134,8 @@ private:
             throw LocatedError(error, position);
         }
     }
+
+    TreeBuilder tree_;
 };
 
 } // namespace

@@ -105,7 +105,7 @@ void TreeBuilder::open(bool object) {
     frames_[depth_++].reset(object);
 }
 
-void TreeBuilder::add(Value value) {
+void TreeBuilder::put(Value value) {
     if (depth_ == 0) {
         root_ = std::move(value);
         return;
@@ -126,17 +126,17 @@ void TreeBuilder::add(Value value) {
     frame.values.push_back(std::move(value));
 }
 
-void TreeBuilder::addNumber(double number) {
+void TreeBuilder::add(double number) {
     if (depth_ == 0 || top().object || top().holds == Frame::Holds::Tuples ||
         top().holds == Frame::Holds::Values)
-        return add(Value(number));
+        return put(Value(number));
     top().holds = Frame::Holds::Numbers;
     top().numbers.push_back(number);
 }
 
-void TreeBuilder::addInteger(Value number) {
-    const double* exact = number.as<double>();
-    exact ? addNumber(*exact) : add(std::move(number));
+void TreeBuilder::add(Value value) {
+    const double* number = value.as<double>();
+    number ? add(*number) : put(std::move(value));
 }
 
 void TreeBuilder::key(const std::string& key) {
@@ -146,29 +146,28 @@ void TreeBuilder::key(const std::string& key) {
         refuse("expected each key once in an object, found \"" + key + "\" again");
 }
 
-void TreeBuilder::endObject() {
-    Value value(std::move(top().members));
-    --depth_;
-    add(std::move(value));
+bool TreeBuilder::joinedTuples() {
+    const Frame& frame = top();
+    if (depth_ < 2 || frame.holds != Frame::Holds::Numbers || frame.numbers.size() > widestTuple)
+        return false;
+    Frame& parent = frames_[depth_ - 2];
+    const bool first = parent.holds == Frame::Holds::Nothing;
+    const bool fits = parent.holds == Frame::Holds::Tuples && parent.width == frame.numbers.size();
+    if (parent.object || !(first || fits)) return false;
+    parent.holds = Frame::Holds::Tuples;
+    parent.width = frame.numbers.size();
+    parent.numbers.insert(parent.numbers.end(), frame.numbers.begin(), frame.numbers.end());
+    return true;
 }
 
-void TreeBuilder::endArray() {
-    Frame& frame = top();
-    if (depth_ > 1 && frame.holds == Frame::Holds::Numbers && frame.numbers.size() <= widestTuple) {
-        Frame& parent = frames_[depth_ - 2];
-        const bool first = parent.holds == Frame::Holds::Nothing;
-        const bool fits = parent.holds == Frame::Holds::Tuples && parent.width == frame.numbers.size();
-        if (!parent.object && (first || fits)) {
-            parent.holds = Frame::Holds::Tuples;
-            parent.width = frame.numbers.size();
-            parent.numbers.insert(parent.numbers.end(), frame.numbers.begin(), frame.numbers.end());
-            --depth_;
-            return;
-        }
+void TreeBuilder::close() {
+    if (joinedTuples()) {
+        --depth_;
+        return;
     }
-    Value value = frame.takeArray();
+    Value value = top().object ? Value(std::move(top().members)) : top().takeArray();
     --depth_;
-    add(std::move(value));
+    put(std::move(value));
 }
 
 Value TreeBuilder::take() {

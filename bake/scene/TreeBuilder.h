@@ -17,13 +17,10 @@ public:
     ~TreeBuilder();
 
     void add(Value value);
-    void addNumber(double number);
-    /// An integer, which may be more than a double holds exactly.
-    void addInteger(Value number);
+    void add(double number);
     void open(bool object);
     void key(const std::string& key);
-    void endObject();
-    void endArray();
+    void close();
 
     /// What is open is an object.
     bool inObject() const;
@@ -36,6 +33,10 @@ public:
 private:
     struct Frame;
     Frame& top();
+    /// As it is, wherever it stands.
+    void put(Value value);
+    /// Whether what is closed is a tuple of numbers that the array around it takes in.
+    bool joinedTuples();
     void spend(std::size_t bytes);
 
     std::string file_;
