@@ -5,7 +5,7 @@
 namespace osgTSS {
 
 DriveCallback::DriveCallback(const DriveCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop) {}
 
 bool DriveCallback::run(osg::Object* object, osg::Object* data) {
     auto* joint = dynamic_cast<JointTransform*>(object);

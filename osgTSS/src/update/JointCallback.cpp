@@ -19,11 +19,11 @@ JointCallback::JointCallback(Scene* scene, std::vector<std::string> pairPaths) :
 }
 
 JointCallback::JointCallback(const JointCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
-      _pairPaths(other._pairPaths), _bindings(std::make_unique<Bindings>()) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop), _pairPaths(other._pairPaths),
+      _bindings(std::make_unique<Bindings>()) {}
 
 void JointCallback::setScene(Scene* scene) {
-    _scene = scene;
+    SceneCallback::setScene(scene);
     _bindings->clear();
 }
 

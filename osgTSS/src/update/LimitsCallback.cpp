@@ -104,11 +104,10 @@ LimitsCallback::LimitsCallback(Scene* scene) : LimitsCallback() {
 }
 
 LimitsCallback::LimitsCallback(const LimitsCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
-      _watches(std::make_unique<Watches>()) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop), _watches(std::make_unique<Watches>()) {}
 
 void LimitsCallback::setScene(Scene* scene) {
-    _scene = scene;
+    SceneCallback::setScene(scene);
     _watches->clear();
 }
 

@@ -141,8 +141,8 @@ MuscleCallback::MuscleCallback(Scene* scene, std::string musclePath) : MuscleCal
 }
 
 MuscleCallback::MuscleCallback(const MuscleCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
-      _musclePath(other._musclePath), _states(std::make_unique<States>()) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop), _musclePath(other._musclePath),
+      _states(std::make_unique<States>()) {}
 
 bool MuscleCallback::run(osg::Object* object, osg::Object* data) {
     const osg::ref_ptr<MuscleCallback> self(this); // an application may take it from its node meanwhile

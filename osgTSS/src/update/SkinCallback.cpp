@@ -155,8 +155,8 @@ SkinCallback::SkinCallback(Scene* scene, std::string skinPath) : SkinCallback() 
 }
 
 SkinCallback::SkinCallback(const SkinCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene),
-      _skinPath(other._skinPath), _states(std::make_unique<States>()) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop), _skinPath(other._skinPath),
+      _states(std::make_unique<States>()) {}
 
 bool SkinCallback::run(osg::Object* object, osg::Object* data) {
     const osg::ref_ptr<SkinCallback> self(this); // an application may take it from its node meanwhile

@@ -52,7 +52,7 @@ void report(osgViewer::View& view, UpdateTime& time) {
 } // namespace
 
 ViewerCallback::ViewerCallback(const ViewerCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), _scene(other._scene) {}
+    : osg::Object(other, copyop), SceneCallback(other, copyop) {}
 
 bool ViewerCallback::run(osg::Object* object, osg::Object* data) {
     osg::Node* node = object ? object->asNode() : nullptr;
