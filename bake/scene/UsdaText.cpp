@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 
 namespace tss {
 
@@ -60,19 +59,7 @@ const char* suggestedType(const Value& value) {
 } // namespace
 
 void appendUsdaString(std::string& out, std::string_view text) {
-    out += '"';
-    for (char c : repairedUtf8(text)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\n') {
-            out += "\\n";
-        } else if (byte < 0x20) {
-            fmt::format_to(std::back_inserter(out), "\\x{:02x}", byte);
-        } else {
-            if (c == '"' || c == '\\') out += '\\';
-            out += c;
-        }
-    }
-    out += '"';
+    appendQuoted(out, text, [](unsigned char control) { return fmt::format("\\x{:02x}", control); });
 }
 
 void appendUsda(std::string& out, const Value& value, const ValueType& type) {

@@ -31,6 +31,25 @@ inline std::string repairedUtf8(std::string_view text) {
     return good;
 }
 
+/// A string literal of JSON or USD: control characters as escape(byte) writes them, but line feeds as \\n;
+/// bytes that are not UTF-8 become U+FFFD, so that the text can always be read.
+template <class Escape>
+void appendQuoted(std::string& out, std::string_view text, const Escape& escape) {
+    out += '"';
+    for (const char c : repairedUtf8(text)) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\n') {
+            out += "\\n";
+        } else if (byte < 0x20) {
+            out += escape(byte);
+        } else {
+            if (c == '"' || c == '\\') out += '\\';
+            out += c;
+        }
+    }
+    out += '"';
+}
+
 inline bool isUtf8(std::string_view text) {
     while (!text.empty()) {
         const std::size_t length = utf8Length(text);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 
 namespace tss {
 
@@ -20,23 +19,10 @@ namespace {
 
 constexpr std::size_t lineWidth = 110;
 
-/// A string literal; bytes that are not UTF-8 become U+FFFD, so that the text can always be read.
-void appendQuoted(std::string& out, std::string_view text) {
-    out += '"';
-    for (const char c : repairedUtf8(text)) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (c == '\n') {
-            out += "\\n";
-        } else if (c == '\t') {
-            out += "\\t";
-        } else if (byte < 0x20) {
-            fmt::format_to(std::back_inserter(out), "\\u{:04x}", byte);
-        } else {
-            if (c == '"' || c == '\\') out += '\\';
-            out += c;
-        }
-    }
-    out += '"';
+void appendJsonString(std::string& out, std::string_view text) {
+    appendQuoted(out, text, [](unsigned char control) {
+        return control == '\t' ? std::string("\\t") : fmt::format("\\u{:04x}", control);
+    });
 }
 
 /// Writes nodes on one line while they fit, else one member or a line full of elements a line.
@@ -89,7 +75,7 @@ private:
             first = false;
             if (indent != onOneLine) newLine(indent + 1);
             if (key) {
-                appendQuoted(out, *key);
+                appendJsonString(out, *key);
                 out += ": ";
             }
             indent == onOneLine ? writeInLine(node) : write(node, indent + 1);
@@ -110,7 +96,7 @@ private:
             });
     }
 
-    void emit(const std::string& text, std::size_t) { appendQuoted(out, text); }
+    void emit(const std::string& text, std::size_t) { appendJsonString(out, text); }
 
     void emit(const TypedValue& typed, std::size_t indent) {
         const Value& value = typed.value;
