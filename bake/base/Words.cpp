@@ -45,6 +45,19 @@ std::string inQuotes(const std::string& text) {
     return quoted + '"';
 }
 
+std::string base64(std::string_view bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (std::size_t k = 0; k < bytes.size(); k += 3) {
+        unsigned int three = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            three = three << 8 | (k + i < bytes.size() ? static_cast<unsigned char>(bytes[k + i]) : 0u);
+        for (std::size_t i = 0; i < 4; ++i)
+            out += k + i > bytes.size() ? '=' : digits[three >> (18 - 6 * i) & 63];
+    }
+    return out;
+}
+
 std::string shellWord(const std::string& word) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) || c > 0x7f || std::strchr("_-./=+,:@%", c);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tss {
@@ -19,6 +20,8 @@ std::size_t editDistance(const std::string& a, const std::string& b);
 /// Between double quotes as YAML and gnuplot read them: quotes and backslashes with a backslash before,
 /// control characters as blanks.
 std::string inQuotes(const std::string& text);
+
+std::string base64(std::string_view bytes);
 
 /// A word as a shell reads it: in quotes where it needs them.
 std::string shellWord(const std::string& word);

@@ -198,32 +198,18 @@ void nameJoints(Json& gltf) {
         }
 }
 
-/// Of a multiple of three bytes.
-std::string base64(std::string_view text) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string coded;
-    for (std::size_t k = 0; k + 2 < text.size(); k += 3) {
-        const auto byte = [&](std::size_t n) {
-            return static_cast<unsigned>(static_cast<unsigned char>(text[k + n]));
-        };
-        const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (const int shift : {18, 12, 6, 0}) coded += letters[three >> shift & 63];
-    }
-    return coded;
-}
-
 /// A skin without inverse bind matrices has identities (3.7.3.1), for which assimp looks in vain.
 void addInverseBinds(Json& gltf) {
-    constexpr std::size_t ofMatrix = 64;
     for (Json& skin : gltf["skins"]) {
         if (skin.contains("inverseBindMatrices") || skin.at("joints").empty()) continue;
-        const std::size_t count = skin.at("joints").size(), size = count * ofMatrix;
+        const std::size_t count = skin.at("joints").size();
         std::string matrices;
-        for (std::size_t k = 0; k < (count + 2) / 3 * 3 * 16; ++k)
+        for (std::size_t k = 0; k < count * 16; ++k)
             matrices += k % 16 % 5 == 0 ? std::string("\0\0\x80\x3f", 4) : std::string(4, '\0'); // 1 and 0
         gltf["buffers"].push_back({{"byteLength", matrices.size()},
                                    {"uri", "data:application/octet-stream;base64," + base64(matrices)}});
-        gltf["bufferViews"].push_back({{"buffer", gltf["buffers"].size() - 1}, {"byteLength", size}});
+        gltf["bufferViews"].push_back(
+            {{"buffer", gltf["buffers"].size() - 1}, {"byteLength", matrices.size()}});
         gltf["accessors"].push_back({{"bufferView", gltf["bufferViews"].size() - 1},
                                      {"componentType", floatType},
                                      {"count", count},
