@@ -1,6 +1,5 @@
 #include "bake/report/Columns.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

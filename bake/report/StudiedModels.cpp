@@ -1,4 +1,3 @@
-#include "bake/geometry/MeshAudit.h"
 #include "bake/report/Text.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "bake/model/Kinematics.h"
 #include "bake/motion/LimitRounding.h"
 #include "bake/pipeline/BakeOptions.h"
-#include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 
 #include <algorithm>

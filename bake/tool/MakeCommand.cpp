@@ -11,7 +11,6 @@
 #include "bake/tool/MakeScene.h"
 #include "bake/tool/SceneMotion.h"
 
-#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>

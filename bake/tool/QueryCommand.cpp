@@ -7,7 +7,6 @@
 #include "bake/table/Query.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
-#include "bake/tool/SceneMotion.h"
 
 #include <fmt/format.h>
 

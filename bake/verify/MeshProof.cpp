@@ -3,8 +3,6 @@
 #include "bake/base/Batches.h"
 #include "bake/verify/MeshBox.h"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <tbb/enumerable_thread_specific.h>
 
