@@ -1,5 +1,6 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/motion/RandomPoses.h"
 #include "bake/report/Study.h"
 
@@ -117,11 +118,9 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
     study.nameA = primName(scene.bodies[pair.bodyA].path);
     study.nameB = primName(scene.bodies[pair.bodyB].path);
     study.millimetres = 1000 * scene.metersPerUnit;
-    for (const Dof& dof : motion.dofs) {
-        const double factor = unitsPer(dof);
-        study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g} {}", dof.name, dof.lower * factor,
-                                         dof.upper * factor, unitOf(dof, scene.metersPerUnit)));
-    }
+    for (const Dof& dof : motion.dofs)
+        study.dofs.push_back(fmt::format("{}: {:.4g} to {:.4g} {}", dof.name, toUser(dof, dof.lower),
+                                         toUser(dof, dof.upper), unitOf(dof, scene.metersPerUnit)));
 }
 
 } // namespace

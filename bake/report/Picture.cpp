@@ -1,6 +1,6 @@
 #include "bake/report/Picture.h"
 
-#include "bake/base/Degrees.h"
+#include "bake/motion/DofUnits.h"
 
 #include <algorithm>
 #include <array>
@@ -152,13 +152,12 @@ std::vector<Picture> picturesOf(const SceneModel& scene, const Pair& pair, std::
     std::vector<std::string> captions{"at rest"};
     if (leadingDof < motion.dofs.size()) {
         const Dof& dof = motion.dofs[leadingDof];
-        const bool turns = dof.kind == DofKind::Rotation;
         for (const double limit : {dof.lower, dof.upper}) {
             if (limit == dof.rest) continue;
             poses.push_back(poses.front());
             poses.back()[leadingDof] = limit;
-            captions.push_back(
-                fmt::format("{} {:.4g}{}", dof.name, turns ? toDegrees(limit) : limit, turns ? "°" : ""));
+            captions.push_back(fmt::format("{} {:.4g}{}", dof.name, toUser(dof, limit),
+                                           dof.kind == DofKind::Rotation ? "°" : ""));
         }
     }
     const View view = viewOf(scene, pair, motion, leadingDof, poses);

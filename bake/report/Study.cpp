@@ -1,13 +1,8 @@
 #include "bake/report/Study.h"
 
-#include "bake/base/Degrees.h"
 #include "bake/pipeline/BakeOptions.h"
 
 namespace tss::reporting {
-
-double unitsPer(const Dof& dof) {
-    return dof.kind == DofKind::Rotation ? toDegrees(1) : 1;
-}
 
 std::string unitOf(const Dof& dof, double metersPerUnit) {
     switch (dof.kind) {

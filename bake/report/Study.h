@@ -125,10 +125,7 @@ struct PairStudy {
     double seconds = 0;
 };
 
-/// A DOF's value in the unit of unitOf() over its value in the core: degrees for radians, else 1.
-double unitsPer(const Dof& dof);
-
-/// The unit of a DOF's values as reports have them: "degrees", "times 1 mm", "of its path".
+/// The unit of a DOF's values as reports have them, of toUser(): "degrees", "times 1 mm", "of its path".
 std::string unitOf(const Dof& dof, double metersPerUnit);
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,

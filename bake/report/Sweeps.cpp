@@ -1,4 +1,5 @@
 #include "bake/base/Parallel.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/motion/RandomPoses.h"
 #include "bake/report/Study.h"
 
@@ -72,11 +73,11 @@ RegionCurve regionOf(const Motion& motion, std::size_t leading, int samples, std
     });
     RegionCurve region;
     for (int k = 0; k < bins; ++k) {
-        region.middle.push_back((dof.lower + step * (k + 0.5)) * unitsPer(dof));
+        region.middle.push_back(toUser(dof, dof.lower + step * (k + 0.5)));
         region.share.push_back(static_cast<double>(hits[k]) / samples);
         if (region.share.back() == 0) continue;
-        if (region.upper == region.lower) region.lower = (dof.lower + step * k) * unitsPer(dof);
-        region.upper = (dof.lower + step * (k + 1)) * unitsPer(dof);
+        if (region.upper == region.lower) region.lower = toUser(dof, dof.lower + step * k);
+        region.upper = toUser(dof, dof.lower + step * (k + 1));
     }
     return region;
 }
@@ -127,7 +128,7 @@ void studySteps(PairStudy& study, const SceneModel& scene, const Pair& pair, con
     study.steps.motion = motion.about;
     const auto queries = poseQueries(problem.motion, motion.values);
     for (const PoseQuery& query : queries) {
-        const double value = query.q[leading] * unitsPer(dof);
+        const double value = toUser(dof, query.q[leading]);
         study.steps.leading.push_back(value);
         study.steps.touching.push_back(truth.touches(query.pose) ? 1 : 0);
         study.steps.inRegion.push_back(study.region.spheres.contains(value));

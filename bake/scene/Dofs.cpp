@@ -1,4 +1,4 @@
-#include "bake/base/Degrees.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/scene/DofToken.h"
 #include "bake/scene/SceneParts.h"
 
@@ -316,7 +316,7 @@ void writeOurs(PrimWriter& prim, const Joint& joint, const std::vector<DofSlots>
         tokens.push_back(slots[k].token);
         names.push_back(dof.name.empty() ? slots[k].token : dof.name);
         scales.push_back(slots[k].scale);
-        rests.push_back(dof.kind == DofKind::Rotation ? toDegrees(dof.rest) : dof.rest);
+        rests.push_back(toUser(dof, dof.rest));
     }
     const auto all = [](const std::vector<double>& values, double value) {
         return std::ranges::all_of(values, [&](double v) { return v == value; });
@@ -351,8 +351,7 @@ void readDofs(const PrimReader& prim, Joint& joint) {
         else
             readLimits(prim, slots, order, dof);
         dof.name = names[k];
-        dof.rest = restWithin(dof, dof.kind == DofKind::Rotation ? toRadians(rests[k]) : rests[k],
-                              prim.has(restOfDofs));
+        dof.rest = restWithin(dof, fromUser(dof, rests[k]), prim.has(restOfDofs));
         TimeSamples& drive = joint.drives.emplace_back(prim.samples(slots.driven()));
         for (double& value : drive.values) value = slots.read(dof, value);
         if (dof.kind == DofKind::Translation) dof.axis *= scales[k];

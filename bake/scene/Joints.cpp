@@ -1,4 +1,4 @@
-#include "bake/base/Degrees.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/scene/SceneParts.h"
 
 namespace tss {
@@ -82,10 +82,9 @@ void readPlanes(const PrimReader& prim, Joint& joint) {
                             " numbers: a coefficient a DOF and the bound");
     for (std::size_t at = 0; at < numbers.size(); at += width) {
         LimitPlane plane;
-        for (std::size_t k = 0; k + 1 < width; ++k) {
-            const bool turns = joint.dofs[k].kind == DofKind::Rotation;
-            plane.coefficients.push_back(turns ? toDegrees(numbers[at + k]) : numbers[at + k]);
-        }
+        // A coefficient is divided by what its value is multiplied by.
+        for (std::size_t k = 0; k + 1 < width; ++k)
+            plane.coefficients.push_back(toUser(joint.dofs[k], numbers[at + k]));
         plane.bound = numbers[at + width - 1];
         joint.planes.push_back(plane);
     }
@@ -95,8 +94,7 @@ void writePlanes(PrimWriter& prim, const Joint& joint) {
     std::vector<double> rows;
     for (const LimitPlane& plane : joint.planes) {
         for (std::size_t k = 0; k < joint.dofs.size(); ++k)
-            rows.push_back(joint.dofs[k].kind == DofKind::Rotation ? toRadians(plane.coefficients.at(k))
-                                                                   : plane.coefficients.at(k));
+            rows.push_back(fromUser(joint.dofs[k], plane.coefficients.at(k)));
         rows.push_back(plane.bound);
     }
     if (!rows.empty()) prim.set(limitPlanes, rows);

@@ -1,6 +1,8 @@
-#include "bake/base/Degrees.h"
 #include "bake/base/Error.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/scene/SceneParts.h"
+
+#include <fmt/format.h>
 
 namespace tss {
 
@@ -110,13 +112,10 @@ void readMotion(const PrimReader& prim, Motion motion, Table& table) {
     const auto names = prim.texts(dofs);
     const auto low = prim.reals(lower, motion.dofs.size()), high = prim.reals(upper, motion.dofs.size());
     std::vector<std::string> wanted;
-    std::string list;
-    for (const Dof& dof : motion.dofs) {
-        wanted.push_back(dof.name);
-        list += (list.empty() ? "" : ", ") + dof.name;
-    }
+    for (const Dof& dof : motion.dofs) wanted.push_back(dof.name);
     if (names != wanted)
-        return prim.problem(dofs, "expected the DOFs of the pair's joints (", list,
+        return prim.problem(dofs, "expected the DOFs of the pair's joints (",
+                            fmt::format("{}", fmt::join(wanted, ", ")),
                             "): the table is stale, bake it again");
     if (low.size() != names.size() || high.size() != names.size()) {
         if (!names.empty() && (!prim.has(lower) || !prim.has(upper)))
@@ -124,10 +123,10 @@ void readMotion(const PrimReader& prim, Motion motion, Table& table) {
         return;
     }
     for (std::size_t k = 0; k < names.size(); ++k) {
-        const bool turns = motion.dofs[k].kind == DofKind::Rotation;
-        motion.dofs[k].lower = turns ? toRadians(low[k]) : low[k];
-        motion.dofs[k].upper = turns ? toRadians(high[k]) : high[k];
-        if (motion.dofs[k].lower > motion.dofs[k].upper)
+        Dof& dof = motion.dofs[k];
+        dof.lower = fromUser(dof, low[k]);
+        dof.upper = fromUser(dof, high[k]);
+        if (dof.lower > dof.upper)
             prim.problem(upper, "expected upper limits that are not below the lower ones");
     }
     table.motion = std::move(motion);

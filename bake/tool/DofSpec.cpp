@@ -13,8 +13,6 @@ namespace tss::tool {
 
 namespace {
 
-constexpr double degree = M_PI / 180;
-
 Vec3 parseAxis(const std::string& text, const std::string& what) {
     Vec3 axis = parseVector(text, what);
     if (!(axis.norm() > 0))
@@ -68,7 +66,8 @@ std::vector<PathRow> readPath(const std::string& file) {
         PathRow path;
         path.value = row[0];
         path.translation = Vec3(row[1], row[2], row[3]);
-        const Vec3 turn = row.size() == 7 ? Vec3(degree * Vec3(row[4], row[5], row[6])) : Vec3(Vec3::Zero());
+        const Vec3 turn =
+            row.size() == 7 ? Vec3(toRadians(1) * Vec3(row[4], row[5], row[6])) : Vec3(Vec3::Zero());
         if (turn.norm() > 0)
             path.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
         rows.push_back(path);
@@ -83,7 +82,7 @@ std::string describePath(const Dof& dof) {
     const auto turns = [](const PathRow& row) { return row.rotation.vec().norm() > 0; };
     if (!std::ranges::any_of(dof.path, turns)) return fmt::format(" ({} rows, no rotation)", dof.path.size());
     return fmt::format(" ({} rows, with rotation, by at most {:.3g} degrees from row to row)",
-                       dof.path.size(), most / degree);
+                       dof.path.size(), toDegrees(most));
 }
 
 } // namespace
@@ -115,14 +114,12 @@ Dof parseDof(const std::string& text, double metersPerUnit) {
     const std::vector<std::string> parts = split(text, ':');
     const std::string kind = parts.empty() ? "" : parts[0];
     Dof dof;
-    double unit = 1;
     if (kind == "rot" && parts.size() == 5) {
         dof.kind = DofKind::Rotation;
         dof.origin = parseVector(parts[1], what);
         dof.axis = parseAxis(parts[2], what).normalized();
-        unit = degree;
-        dof.lower = unit * parseNumber(parts[3], what);
-        dof.upper = unit * parseNumber(parts[4], what);
+        dof.lower = toRadians(parseNumber(parts[3], what));
+        dof.upper = toRadians(parseNumber(parts[4], what));
     } else if (kind == "trans" && parts.size() == 4) {
         dof.kind = DofKind::Translation;
         dof.axis = parseAxis(parts[1], what);
@@ -181,13 +178,6 @@ std::string describeDofs(const Motion& motion, double metersPerUnit) {
                             dof.kind == DofKind::Path ? describePath(dof) : "");
     }
     return text;
-}
-
-double toUser(const Dof& dof, double q) {
-    return dof.kind == DofKind::Rotation ? q / degree : q;
-}
-double fromUser(const Dof& dof, double value) {
-    return dof.kind == DofKind::Rotation ? value * degree : value;
 }
 
 } // namespace tss::tool

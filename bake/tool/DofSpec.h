@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/motion/Motion.h"
+#include "bake/motion/DofUnits.h"
 
 #include <string>
 #include <vector>
@@ -34,9 +34,5 @@ std::string describeDofs(const Motion& motion, double metersPerUnit);
 
 /// What a unit is long in metres: "0.001", or as well "1mm". Throws InputError that quotes the option.
 double parseUnit(const std::string& text, const std::string& option);
-
-/// Values of a DOF as people write them: degrees for rotations, else as they are.
-double toUser(const Dof& dof, double q);
-double fromUser(const Dof& dof, double value);
 
 } // namespace tss::tool

@@ -1,9 +1,8 @@
 #include "DofWords.h"
 
 #include "bake/base/Error.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/scene/DofToken.h"
-
-#include <osg/Math>
 
 #include <cmath>
 #include <sstream>
@@ -25,10 +24,9 @@ tss::Dof parseDofWord(const std::string& word, const std::string& tag) {
         dof.kind == tss::DofKind::Path || !(lower <= upper) || !std::isfinite(lower) || !std::isfinite(upper))
         throw tss::InputError(tag + ": expected words such as rotZ:-24:18 or transX:0:5, found \"" + word +
                               "\"");
-    const double unit = dof.kind == tss::DofKind::Rotation ? osg::DegreesToRadians(1.0) : 1;
     dof.name = token;
-    dof.lower = lower * unit;
-    dof.upper = upper * unit;
+    dof.lower = tss::fromUser(dof, lower);
+    dof.upper = tss::fromUser(dof, upper);
     return dof;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
+#include "bake/motion/DofUnits.h"
 #include "bake/motion/LimitRounding.h"
 #include "bake/motion/WholeTurn.h"
 
-#include <osg/Math>
 #include <osg/observer_ptr>
 
 #include <cmath>
@@ -29,10 +29,9 @@ inline std::optional<Stray> beyondLimits(const tss::Dof& dof, double value) {
     const double slack = nodeRounding(dof);
     if (tss::wholeTurn(dof) || (value >= dof.lower - slack && value <= dof.upper + slack))
         return std::nullopt;
-    const double unit = dof.kind == tss::DofKind::Rotation ? osg::RadiansToDegrees(1.0) : 1;
     std::ostringstream text;
-    text << "it is asked for " << dof.name << " " << value * unit << ", beyond the limits "
-         << dof.lower * unit << " to " << dof.upper * unit;
+    text << "it is asked for " << dof.name << " " << tss::toUser(dof, value) << ", beyond the limits "
+         << tss::toUser(dof, dof.lower) << " to " << tss::toUser(dof, dof.upper);
     return Stray{text.str(), false};
 }
 
