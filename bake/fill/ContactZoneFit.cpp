@@ -63,8 +63,7 @@ public:
         result_.b = b_.result(options_);
         noteMore(result_.a, a_);
         noteMore(result_.b, b_);
-        for (ContactZoneBody* body : {&result_.a, &result_.b})
-            if (!note_.empty()) body->fit.note += (body->fit.note.empty() ? "" : "; ") + note_;
+        for (ContactZoneBody* body : {&result_.a, &result_.b}) addNote(body->fit, note_);
         return std::move(result_);
     }
 
@@ -127,17 +126,16 @@ private:
     void noteMore(ContactZoneBody& made, const FittedBody& body) const {
         const std::size_t region = body.rest.region.spheres.size(), asked = options_.maxSpheres;
         if (asked == 0 || made.fit.spheres.size() <= asked) return;
-        const std::string add = made.fit.note.empty() ? "" : "; ";
         if (2 * region > asked)
-            made.fit.note +=
-                fmt::format("{}what overlaps at rest takes {} spheres, and the rest as many: more "
-                            "than the {} asked for",
-                            add, region, asked);
+            addNote(made.fit,
+                    fmt::format("what overlaps at rest takes {} spheres, and the rest as many: more "
+                                "than the {} asked for",
+                                region, asked));
         else if (body.rest.neighbour)
-            made.fit.note +=
-                fmt::format("{}the surfaces are {:.4g} scene units apart at rest: spheres that are "
-                            "apart there too are more than the {} asked for",
-                            add, body.rest.neighbour->clearance, asked);
+            addNote(made.fit,
+                    fmt::format("the surfaces are {:.4g} scene units apart at rest: spheres that are "
+                                "apart there too are more than the {} asked for",
+                                body.rest.neighbour->clearance, asked));
     }
 
     /// How many spheres a body may take. The region that overlaps at rest takes the same spheres on every
