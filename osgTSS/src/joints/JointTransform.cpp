@@ -1,3 +1,5 @@
+#include "FoundJoint.h"
+
 #include "bake/base/Error.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/WholeTurn.h"
@@ -8,17 +10,6 @@
 #include <cmath>
 
 namespace osgTSS {
-
-namespace {
-
-tss::Pose rigid(const osg::Matrixd& matrix) {
-    const auto similarity = toSimilarity(matrix);
-    if (!similarity || similarity->scale != 1)
-        throw tss::InputError("frame of a joint: expected a rigid matrix, without scale, shear or mirror");
-    return similarity->pose;
-}
-
-} // namespace
 
 struct JointTransform::Description {
     tss::Joint joint;
@@ -64,7 +55,7 @@ const tss::Dof& JointTransform::getDof(unsigned int i) const {
 }
 
 void JointTransform::setFrames(const osg::Matrixd& toParent, const osg::Matrixd& toChild) {
-    const tss::Pose frame0 = rigid(toParent), frame1 = rigid(toChild);
+    const tss::Pose frame0 = rigid(toParent, "frame of a joint"), frame1 = rigid(toChild, "frame of a joint");
     _joint->joint.frame0 = frame0;
     _joint->joint.frame1 = frame1;
     update();
