@@ -1,5 +1,5 @@
 #include "DrawnVertices.h"
-#include "PointGrid.h"
+#include "NearPoints.h"
 
 #include "bake/geometry/MeshQuery.h"
 #include "bake/motion/TurnBetween.h"
@@ -46,15 +46,15 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     const auto* vertices = dynamic_cast<const osg::Vec3Array*>(rest.getVertexArray());
     if (!vertices || mesh.empty()) return std::nullopt;
     const Eigen::AlignedBox3d box = tss::bounds(mesh);
-    const PointGrid grid(mesh.vertices, same * (box.diagonal().norm() + 1e-2 * box.center().norm()) +
-                                            std::numeric_limits<float>::min());
+    const NearPoints near(mesh.vertices, same * (box.diagonal().norm() + 1e-2 * box.center().norm()) +
+                                             std::numeric_limits<float>::min());
     const std::vector<bool> used = verticesIn(rest, false);
     std::vector<std::vector<std::uint32_t>> standing(mesh.vertices.size()); ///< at each vertex of the mesh
     std::vector<std::uint32_t> beside;
     for (std::uint32_t i = 0; i < vertices->size(); ++i) {
         const tss::Vec3 point = scale * toCore((*vertices)[i]);
         if (!point.allFinite()) continue;
-        if (const int v = grid.nearest(point); v >= 0)
+        if (const int v = near.nearest(point); v >= 0)
             standing[v].push_back(i);
         else if (used[i])
             beside.push_back(i);

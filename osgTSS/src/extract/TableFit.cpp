@@ -1,5 +1,5 @@
 #include "TableFit.h"
-#include "osgTSS/src/draw/PointGrid.h"
+#include "osgTSS/src/draw/NearPoints.h"
 #include "osgTSS/src/joints/JointNode.h"
 
 #include "bake/model/SourceHash.h"
@@ -47,7 +47,7 @@ bool sameSurface(const tss::TriangleMesh& a, const tss::TriangleMesh& b) {
     if (std::abs(of.area - other.area) > slack || (of.first - other.first).norm() > slack * length ||
         (of.second - other.second).norm() > slack * length * length)
         return false;
-    const PointGrid inA(a.vertices, same * size), inB(b.vertices, same * size);
+    const NearPoints inA(a.vertices, same * size), inB(b.vertices, same * size);
     for (const tss::Vec3& vertex : a.vertices)
         if (inB.nearest(vertex) < 0) return false;
     for (const tss::Vec3& vertex : b.vertices)
