@@ -57,10 +57,10 @@ struct Shown {
         tss::Pose restInverse; ///< surface to the bone, at rest
     };
     std::vector<Bone> bones; ///< of a muscle over several those behind the first
-    std::optional<tss::MuscleSpan> span;
     std::shared_ptr<const tss::SceneModel> model;
     int muscle;
     std::shared_ptr<const tss::MuscleDeformer> deformer; ///< null: not to be played
+    std::optional<tss::MuscleShape> shape;
     tss::TriangleMesh mesh;
     std::optional<DrawnVertices> drawn; ///< of a geometry that the muscle was made from; else one per vertex
     double activation = std::numeric_limits<double>::quiet_NaN();
@@ -74,6 +74,7 @@ struct Shown {
         if (muscle < 0) return;
         try {
             deformer = scene.getCache().muscle(muscle);
+            shape.emplace(*deformer);
             mesh = deformer->muscle().surface;
             if (!geometry.valid()) findNodes(node);
             if (!geometry.valid() || !replacedBy(*geometry) || !geometry->getRestGeometry()) return;
@@ -96,16 +97,15 @@ struct Shown {
             const tss::Body& bone = model->bodies[index];
             bones.push_back(
                 {nodes.frame(bone.path).node, bone.placement.inverse(Eigen::Isometry) * body.placement});
-            if (!bones.back().node.valid()) return;
+            if (!bones.back().node.valid()) return bones.clear();
         }
         moved.resize(bones.size(), tss::Pose::Identity());
-        span.emplace(*deformer);
     }
 
     /// Finds where the bones are. One that was taken out of the graph stays where it was.
     tss::ChainMotion findBones(osg::Node& owner) const {
         tss::ChainMotion now = moved;
-        const auto from = span && frame.node.valid() ? toAbove(owner, *frame.node) : std::nullopt;
+        const auto from = !bones.empty() && frame.node.valid() ? toAbove(owner, *frame.node) : std::nullopt;
         for (std::size_t k = 0; from && k < bones.size(); ++k) {
             const auto fromBone = bones[k].node.valid() ? toAbove(owner, *bones[k].node) : std::nullopt;
             if (fromBone)
@@ -122,8 +122,7 @@ struct Shown {
         if (now == activation && std::ranges::equal(found, moved, same)) return false;
         activation = now;
         moved = std::move(found);
-        mesh.vertices = deformer->vertices(activation);
-        if (span) span->carry(moved, mesh.vertices);
+        mesh.vertices = shape->vertices(activation, moved);
         return true;
     }
 };
