@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <functional>
 
 namespace tss::tool {
 
@@ -19,7 +18,7 @@ namespace {
 struct Track {
     std::vector<std::string> names; ///< the last is what messages say
     TimeSamples* samples;
-    std::function<double(double)> fromUser;
+    const Dof* dof; ///< null: of a muscle
 };
 
 /// Removes the samples of all drives and activations of a scene, and returns these to be filled again.
@@ -28,15 +27,12 @@ std::vector<Track> clearedTracks(SceneModel& scene) {
     std::vector<Track> tracks;
     for (Joint& joint : scene.joints) {
         joint.drives.assign(joint.dofs.size(), {});
-        for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
-            const Dof& dof = joint.dofs[k];
-            tracks.push_back({columns.names[tracks.size()], &joint.drives[k],
-                              [&dof](double value) { return fromUser(dof, value); }});
-        }
+        for (std::size_t k = 0; k < joint.dofs.size(); ++k)
+            tracks.push_back({columns.names[tracks.size()], &joint.drives[k], &joint.dofs[k]});
     }
     for (MuscleModel& muscle : scene.muscles) {
         muscle.activation = {};
-        tracks.push_back({{primName(muscle.path)}, &muscle.activation, [](double value) { return value; }});
+        tracks.push_back({{primName(muscle.path)}, &muscle.activation, nullptr});
     }
     return tracks;
 }
@@ -87,8 +83,9 @@ void applyMotion(SceneModel& scene, const std::string& file) {
         if (r == 0) scene.startTimeCode = time;
         scene.endTimeCode = time;
         for (std::size_t k = 0; k < columns.size(); ++k) {
-            columns[k]->samples->times.push_back(time);
-            columns[k]->samples->values.push_back(columns[k]->fromUser(row[k + first]));
+            const auto& [names, samples, dof] = *columns[k];
+            samples->times.push_back(time);
+            samples->values.push_back(dof ? fromUser(*dof, row[k + first]) : row[k + first]);
         }
     }
 }
