@@ -65,29 +65,21 @@ void addBalls(const Solid& solid, PartWitnesses& part) {
 }
 
 void addVertices(const TriangleMesh& mesh, PartWitnesses& part) {
-    std::vector<int> found;
-    for (int way = 0; way < 27; ++way) {
-        const Vec3 out(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
-        if (way == 13) continue; // no direction
-        const auto farthest =
-            std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
-                             [&](const Vec3& x, const Vec3& y) { return x.dot(out) < y.dot(out); });
-        found.push_back(static_cast<int>(farthest - mesh.vertices.begin()));
-    }
+    std::vector<std::size_t> found = farthestOut(mesh);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    for (const int v : found) part.push_back({mesh.vertices[v]});
+    for (const std::size_t v : found) part.push_back({mesh.vertices[v]});
     // All over the part: the next is farthest from those before it.
     std::vector<double> apart(mesh.vertices.size(), std::numeric_limits<double>::infinity());
-    const auto near = [&](int taken) {
+    const auto near = [&](std::size_t taken) {
         for (std::size_t v = 0; v < apart.size(); ++v)
             apart[v] = std::min(apart[v], (mesh.vertices[v] - mesh.vertices[taken]).squaredNorm());
     };
-    for (const int v : found) near(v);
+    for (const std::size_t v : found) near(v);
     while (found.size() < verticesPerPart) {
         const auto farthest = std::max_element(apart.begin(), apart.end());
         if (!(*farthest > 0)) break;
-        found.push_back(static_cast<int>(farthest - apart.begin()));
+        found.push_back(farthest - apart.begin());
         part.push_back({mesh.vertices[found.back()]});
         near(found.back());
     }

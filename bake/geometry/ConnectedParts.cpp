@@ -3,6 +3,8 @@
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/Import.h"
 
+#include <algorithm>
+
 namespace tss {
 
 std::vector<TriangleMesh> connectedParts(const TriangleMesh& soup) {
@@ -31,6 +33,20 @@ std::vector<TriangleMesh> connectedParts(const TriangleMesh& soup) {
         part.triangles.push_back(moved);
     }
     return parts;
+}
+
+std::vector<std::size_t> farthestOut(const TriangleMesh& mesh) {
+    std::vector<std::size_t> found;
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                const Vec3 way(x, y, z);
+                const auto along = [&](const Vec3& p) { return way.dot(p); };
+                if (!way.isZero())
+                    found.push_back(std::ranges::max_element(mesh.vertices, {}, along) -
+                                    mesh.vertices.begin());
+            }
+    return found;
 }
 
 } // namespace tss

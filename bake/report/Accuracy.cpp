@@ -1,12 +1,11 @@
 #include "bake/report/Accuracy.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/base/UnionFind.h"
 #include "bake/compare/Methods.h"
+#include "bake/geometry/ConnectedParts.h"
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace tss::reporting {
 
@@ -26,13 +25,8 @@ double deepestInside(const Solid& solid, const Eigen::AlignedBox3d& box, const s
 
 /// A vertex of every connected component of the mesh.
 std::vector<Vec3> oneOfEach(const TriangleMesh& mesh) {
-    UnionFind together(mesh.vertices.size());
-    for (const Tri& t : mesh.triangles)
-        for (const int k : {1, 2}) together.join(t[0], t[k]);
-    std::set<std::size_t> roots;
-    for (const Tri& t : mesh.triangles) roots.insert(together.root(t[0]));
     std::vector<Vec3> points;
-    for (const std::size_t root : roots) points.push_back(mesh.vertices[root]);
+    for (const TriangleMesh& part : connectedParts(mesh)) points.push_back(part.vertices.front());
     return points;
 }
 

@@ -2,7 +2,7 @@
 
 #include "bake/base/Batches.h"
 #include "bake/base/Infinity.h"
-#include "bake/base/UnionFind.h"
+#include "bake/geometry/ConnectedParts.h"
 #include "bake/verify/TestTree.h"
 
 #include <algorithm>
@@ -24,45 +24,20 @@ std::array<double, 3> placeOf(const Vec3& p) {
 /// The connected pieces of a surface: joined where triangles share the place of a corner.
 class Components {
 public:
-    explicit Components(const TriangleMesh& mesh) : of_(mesh.vertices.size()) {
-        std::map<std::array<double, 3>, std::size_t> places;
-        UnionFind together(mesh.vertices.size());
-        for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-            together.join(places.try_emplace(placeOf(mesh.vertices[v]), v).first->second, v);
-        for (const Tri& t : mesh.triangles)
-            for (int k = 1; k < 3; ++k) together.join(std::size_t(t[0]), std::size_t(t[k]));
-        std::map<std::size_t, std::uint32_t> number;
-        std::vector<std::vector<Vec3>> points;
-        for (const Tri& t : mesh.triangles)
-            for (int k = 0; k < 3; ++k) {
-                const auto found =
-                    number.try_emplace(together.root(std::size_t(t[k])), std::uint32_t(number.size()));
-                if (found.second) points.emplace_back();
-                of_[std::size_t(t[k])] = found.first->second;
-                points[found.first->second].push_back(mesh.vertices[std::size_t(t[k])]);
-            }
-        for (const std::vector<Vec3>& piece : points) extremes_.push_back(extremesOf(piece));
+    explicit Components(const TriangleMesh& mesh) {
+        std::map<std::array<double, 3>, std::uint32_t> pieceAt;
+        for (const TriangleMesh& piece : connectedParts(mesh)) {
+            for (const Vec3& v : piece.vertices) pieceAt[placeOf(v)] = std::uint32_t(extremes_.size());
+            Extremes& extremes = extremes_.emplace_back();
+            for (const std::size_t v : farthestOut(piece)) extremes.push_back(piece.vertices[v]);
+        }
+        for (const Vec3& v : mesh.vertices) of_.push_back(pieceAt[placeOf(v)]);
     }
 
     std::uint32_t of(int vertex) const { return of_[std::size_t(vertex)]; }
     const std::vector<Extremes>& extremes() const { return extremes_; }
 
 private:
-    static Extremes extremesOf(const std::vector<Vec3>& points) {
-        Extremes extremes;
-        for (int x = -1; x <= 1; ++x)
-            for (int y = -1; y <= 1; ++y)
-                for (int z = -1; z <= 1; ++z) {
-                    const Vec3 way(x, y, z);
-                    if (way.isZero()) continue;
-                    extremes.push_back(
-                        *std::max_element(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
-                            return way.dot(p) < way.dot(q);
-                        }));
-                }
-        return extremes;
-    }
-
     std::vector<std::uint32_t> of_;  ///< each vertex
     std::vector<Extremes> extremes_; ///< of each piece
 };
