@@ -1,6 +1,7 @@
 #include "bake/motion/MuscleVolume.h"
 
 #include "bake/geometry/OpenEdges.h"
+#include "bake/geometry/PartSet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,16 +24,6 @@ TriangleMesh closed(TriangleMesh mesh) {
     return mesh;
 }
 
-namespace {
-
-double areaOf(const TriangleMesh& mesh) {
-    double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += mesh.areaNormal(t).norm() / 2;
-    return area;
-}
-
-} // namespace
-
 double openShare(const TriangleMesh& mesh) {
     const TriangleMesh whole = closed(mesh);
     std::map<int, Vec3> openings; // by apex; the sum of the normals does not depend on how it is closed
@@ -40,15 +31,15 @@ double openShare(const TriangleMesh& mesh) {
         openings.try_emplace(whole.triangles[t][2], Vec3::Zero()).first->second += whole.areaNormal(t);
     double open = 0;
     for (const auto& [apex, normal] : openings) open += normal.norm() / 2;
-    const double area = areaOf(mesh);
-    return area > 0 ? open / area : 0;
+    const double all = area(mesh);
+    return all > 0 ? open / all : 0;
 }
 
 bool enclosesVolume(const TriangleMesh& mesh) {
     constexpr double flat = 1e-9; // mean thickness, as a share of the size
     if (mesh.empty()) return false;
     const double volume = enclosedVolume(mesh.vertices, closed(mesh).triangles);
-    return volume > flat * areaOf(mesh) * diagonal(mesh);
+    return volume > flat * area(mesh) * diagonal(mesh);
 }
 
 std::array<double, 4> swollenVolume(double wanted, std::span<const Vec3> places,

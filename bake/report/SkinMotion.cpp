@@ -1,6 +1,7 @@
 #include "bake/report/SkinMotion.h"
 
 #include "bake/compare/PushedSkin.h"
+#include "bake/geometry/PartSet.h"
 #include "bake/model/Kinematics.h"
 #include "bake/model/UnderSkin.h"
 #include "bake/motion/MuscleDeformer.h"
@@ -76,15 +77,6 @@ double deepestBeyond(const std::vector<double>& now, const std::vector<double>& 
     double deepest = 0;
     for (std::size_t i = 0; i < now.size(); ++i) deepest = std::max(deepest, now[i] - rest[i]);
     return deepest;
-}
-
-double areaOf(std::span<const Vec3> positions, const std::vector<Tri>& triangles) {
-    double area = 0;
-    for (const Tri& t : triangles) {
-        const Vec3& a = positions[t[0]];
-        area += 0.5 * (positions[t[1]] - a).cross(positions[t[2]] - a).norm();
-    }
-    return area;
 }
 
 /// The places of the vertices that a rig moves. all: those of all vertices of its skin.
@@ -169,7 +161,7 @@ SkinAnswer answerOf(const Played& played, const std::function<bool(const SkinAsk
         }
         if (played.restArea > 0)
             answer.areaChange = std::max(
-                answer.areaChange, std::abs(areaOf(positions, played.rig.triangles) / played.restArea - 1));
+                answer.areaChange, std::abs(area({positions, played.rig.triangles}) / played.restArea - 1));
     }
     answer.rms = std::sqrt(squares / (steps * static_cast<double>(played.rig.vertices.size())));
     if (!times.empty()) answer.nanoseconds = median(std::move(times));
@@ -254,7 +246,7 @@ SkinMotionStudy studySkinMotion(const SceneModel& scene, const SkinModel& skin, 
                   stepsOf(rigOf(2000), asked, mesh, *rig),
                   motion.bones ? stepsOf(skinRig(scene, carried), asked, mesh, *rig)
                                : std::vector<std::vector<Vec3>>(asked.size(), rig->rest),
-                  areaOf(rig->rest, rig->triangles)};
+                  area({rig->rest, rig->triangles})};
     for (std::size_t s = 0; s < asked.size(); ++s) {
         played.truths.push_back(below.at(asked[s].activations, asked[s].poses));
         studyStep(study, played, below, s);
