@@ -3,10 +3,9 @@
 #include "bake/base/Parallel.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/InnerPoles.h"
+#include "bake/geometry/Import.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 
 namespace tss::compare {
 
@@ -21,31 +20,15 @@ void splitInto(const Corners& element, double longest, std::vector<Corners>& ele
         for (const Corners& half : halves(element)) splitInto(half, longest, elements);
 }
 
-/// The corners of all elements, each place once, with the area-weighted normal there.
-struct SharedCorners {
-    std::vector<Vec3> points, normals;
-    std::vector<std::array<std::uint32_t, 3>> of; ///< #elements
-};
-
-SharedCorners cornersOf(const std::vector<Corners>& elements) {
-    SharedCorners corners;
-    std::map<std::array<double, 3>, std::uint32_t> known;
+/// The elements with their corners each place once.
+TriangleMesh meshOf(const std::vector<Corners>& elements) {
+    TriangleMesh soup;
     for (const Corners& element : elements) {
-        const Vec3 area = (element[1] - element[0]).cross(element[2] - element[0]);
-        std::array<std::uint32_t, 3> ids{};
-        for (int k = 0; k < 3; ++k) {
-            const auto [place, isNew] = known.try_emplace({element[k].x(), element[k].y(), element[k].z()},
-                                                          static_cast<std::uint32_t>(corners.points.size()));
-            if (isNew) {
-                corners.points.push_back(element[k]);
-                corners.normals.push_back(Vec3::Zero());
-            }
-            ids[k] = place->second;
-            corners.normals[ids[k]] += area;
-        }
-        corners.of.push_back(ids);
+        const auto first = static_cast<int>(soup.vertices.size());
+        soup.vertices.insert(soup.vertices.end(), element.begin(), element.end());
+        soup.triangles.emplace_back(first, first + 1, first + 2);
     }
-    return corners;
+    return welded(soup);
 }
 
 } // namespace
@@ -100,13 +83,16 @@ MedialSurface medialSurface(const TriangleMesh& mesh, const Solid& solid) {
     MedialSurface surface;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         splitInto(mesh.corners(t), solid.diagonal() / 40, surface.elements);
-    const SharedCorners corners = cornersOf(surface.elements);
-    surface.balls = innerPoles(corners.points, corners.normals);
-    std::vector<std::uint32_t> last(corners.points.size(), UINT32_MAX);
+    const TriangleMesh divided = meshOf(surface.elements);
+    std::vector<Vec3> normals(divided.vertices.size(), Vec3::Zero());
+    for (std::size_t t = 0; t < divided.triangles.size(); ++t)
+        for (const int corner : divided.triangles[t]) normals[corner] += divided.areaNormal(t);
+    surface.balls = innerPoles(divided.vertices, normals);
+    std::vector<std::uint32_t> last(divided.vertices.size(), UINT32_MAX);
     for (std::uint32_t e = 0; e < surface.elements.size(); ++e) {
-        std::uint32_t best = corners.of[e][0];
+        std::uint32_t best = divided.triangles[e][0];
         double least = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t corner : corners.of[e]) {
+        for (const std::uint32_t corner : divided.triangles[e]) {
             const Sphere& ball = surface.balls[corner];
             const double needed =
                 ball.radius > 0 ? reach(ball.centre, surface.elements[e]) - ball.radius : 1e300;
