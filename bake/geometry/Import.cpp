@@ -11,23 +11,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <numeric>
+#include <tuple>
 
 namespace tss {
 
 TriangleMesh welded(const TriangleMesh& mesh) {
     const auto count = static_cast<int>(mesh.vertices.size());
-    const auto less = [&](int a, int b) {
-        const Vec3 &x = mesh.vertices[a], &y = mesh.vertices[b];
-        for (int k = 0; k < 3; ++k)
-            if (x[k] != y[k]) return x[k] < y[k];
-        return a < b;
+    const auto key = [&](int v) {
+        const Vec3& x = mesh.vertices[v];
+        return std::tuple(x.x(), x.y(), x.z(), v);
     };
     std::vector<int> order(count), first(count), place(count, -1);
     std::iota(order.begin(), order.end(), 0);
     // NaN has no place in an order: such vertices stay as they are.
     const auto finite =
         std::partition(order.begin(), order.end(), [&](int v) { return mesh.vertices[v].allFinite(); });
-    std::sort(order.begin(), finite, less);
+    std::ranges::sort(order.begin(), finite, {}, key);
     std::iota(first.begin(), first.end(), 0);
     for (auto it = order.begin(); it != finite; ++it)
         if (it != order.begin() && mesh.vertices[*it] == mesh.vertices[*(it - 1)])
