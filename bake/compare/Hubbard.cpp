@@ -2,6 +2,7 @@
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/base/UnionFind.h"
 #include "bake/spheres/BallAround.h"
 
 #include <algorithm>
@@ -40,8 +41,7 @@ struct Merge {
 
 class Merging {
 public:
-    explicit Merging(const MedialSurface& surface) : owner_(surface.elements.size()) {
-        std::iota(owner_.begin(), owner_.end(), 0u);
+    explicit Merging(const MedialSurface& surface) : together_(surface.elements.size()) {
         for (std::size_t e = 0; e < surface.elements.size(); ++e) {
             SphereSet corners;
             for (const Vec3& corner : surface.elements[e]) corners.push_back({corner, 0});
@@ -57,11 +57,8 @@ public:
 
     std::size_t count() const { return count_; }
 
-    /// The cluster of an element.
-    std::uint32_t find(std::uint32_t e) {
-        while (owner_[e] != e) e = owner_[e] = owner_[owner_[e]];
-        return e;
-    }
+    /// What tells the cluster of an element from all others.
+    std::uint32_t of(std::uint32_t element) { return static_cast<std::uint32_t>(together_.root(element)); }
 
     void mergeDownTo(std::size_t target) {
         while (count_ > target) {
@@ -93,7 +90,7 @@ private:
         into.inscribed = std::max(into.inscribed, from.inscribed);
         ++into.version;
         from.alive = false;
-        owner_[drop] = keep;
+        together_.join(keep, drop);
         --count_;
         for (const std::uint32_t other : from.neighbours) {
             clusters_[other].neighbours.erase(drop);
@@ -119,7 +116,7 @@ private:
     }
 
     std::vector<Cluster> clusters_;
-    std::vector<std::uint32_t> owner_;
+    UnionFind together_; ///< elements of one cluster
     std::priority_queue<Merge> queue_;
     std::size_t count_ = 0;
 };
@@ -145,7 +142,7 @@ EnclosingTree buildHubbard(const TriangleMesh& mesh, const Solid& solid, int lev
     for (int l = levels; l >= 0; --l) {
         merging.mergeDownTo(std::size_t{1} << (3 * l));
         auto& of = owner[l];
-        for (std::uint32_t e = 0; e < elementCount; ++e) of.push_back(merging.find(e));
+        for (std::uint32_t e = 0; e < elementCount; ++e) of.push_back(merging.of(e));
     }
     std::vector<std::vector<std::uint32_t>> open(1, std::vector<std::uint32_t>(elementCount));
     std::iota(open[0].begin(), open[0].end(), 0u);
