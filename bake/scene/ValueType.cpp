@@ -58,7 +58,6 @@ std::map<std::string, ValueType, std::less<>> makeTypes() {
     return types;
 }
 
-/// Checks the single numbers of one value.
 /// Brings values of one type into the form that they are kept in.
 class Conformer {
 public:
