@@ -4,6 +4,7 @@
 #include "bake/base/UnionFind.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/Bvh.h"
+#include "bake/geometry/Import.h"
 #include "bake/geometry/TrianglePoint.h"
 
 #include <fmt/format.h>
@@ -103,14 +104,9 @@ void countVertices(const TriangleMesh& mesh, MeshAudit& audit) {
         if (inRange(mesh, t))
             for (int k = 0; k < 3; ++k) used[t[k]] = 1;
     audit.unusedVertices = static_cast<int>(std::count(used.begin(), used.end(), 0));
-    std::vector<Vec3> finite;
-    for (const Vec3& v : mesh.vertices)
-        if (v.allFinite()) finite.push_back(v);
-    audit.notFinite = static_cast<int>(mesh.vertices.size() - finite.size());
-    std::sort(finite.begin(), finite.end(), [](const Vec3& a, const Vec3& b) {
-        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-    });
-    for (std::size_t i = 1; i < finite.size(); ++i) audit.duplicateVertices += finite[i] == finite[i - 1];
+    audit.notFinite =
+        static_cast<int>(std::ranges::count_if(mesh.vertices, [](const Vec3& v) { return !v.allFinite(); }));
+    audit.duplicateVertices = static_cast<int>(mesh.vertices.size() - welded(mesh).vertices.size());
 }
 
 } // namespace
