@@ -29,15 +29,13 @@ constexpr int stations = 16; ///< of a swing, after rest
 BoneSwing swingTo(const SceneModel& scene, const SkinModel& skin, const std::vector<double>& end) {
     const std::vector<double> rest = restValues(scene);
     BoneSwing swing;
-    bool moves = false;
     for (int s = 1; s <= stations; ++s) {
         std::vector<double> values = end;
         for (std::size_t k = 0; k < rest.size() && s < stations; ++k)
             values[k] = rest[k] + (end[k] - rest[k]) * s / stations;
         swing.push_back(skinPoses(scene, skin, posedBodies(scene, values)));
-        for (const Pose& pose : swing.back()) moves = moves || pose.matrix() != Pose::Identity().matrix();
     }
-    if (!moves) swing.clear();
+    if (std::ranges::all_of(swing, isAtRest)) swing.clear();
     return swing;
 }
 
@@ -177,7 +175,7 @@ std::vector<std::shared_ptr<const MuscleDeformer>> skinMuscles(const SceneModel&
                                           : bone(under.body >= 0 ? scene.bodies[under.body].mesh : empty);
         const Pose pose = under.body >= 0 ? Pose(toSkin * scene.bodies[under.body].placement) : toSkin;
         // A muscle modelled in the skin's own frame keeps its bits.
-        if (pose.matrix() != Pose::Identity().matrix()) {
+        if (!isIdentity(pose)) {
             for (Vec3& v : muscle.surface.vertices) v = pose * v;
             for (Vec3& v : muscle.fibre) v = pose * v;
             for (Eigen::Vector4d& side : muscle.sides) side.head<3>() = pose.linear() * side.head<3>();
