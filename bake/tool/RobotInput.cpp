@@ -86,12 +86,8 @@ MadeScene sceneOfOurs(const UsdStage& stage, const std::string& file) {
 /// its UsdPhysics describes. Its files may lie in the folders of the packages too.
 MadeScene readUsdScene(const std::string& file, const Packages& packages, const RobotSceneRequest& request,
                        const std::vector<std::string>& offsets) {
-    std::vector<std::string> folders;
-    for (const auto& [name, folder] : packages)
-        if (!folder.empty()) folders.push_back(folder);
-    const OpenUsd open = besideUsd(file, folders);
-    const std::string name = std::filesystem::path(file).filename().string();
-    const UsdFile first = inFile(file, [&] { return open(name); });
+    const OpenUsd open = besideUsd(meshesOf(file, packages));
+    const UsdFile first = inFile(file, [&] { return open(std::filesystem::absolute(file).string()); });
     if (!first.missing.empty()) throw InputError(Where{file}, first.missing);
     UsdStage stage = readStage(first.text, file, open);
     if (stage.ours && !offsets.empty())

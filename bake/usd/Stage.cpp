@@ -133,26 +133,18 @@ private:
 
 } // namespace
 
-OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others) {
-    namespace fs = std::filesystem;
-    std::vector<fs::path> folders{fs::weakly_canonical(fs::absolute(file).parent_path())};
-    for (const std::string& folder : others) folders.push_back(fs::weakly_canonical(fs::absolute(folder)));
-    return [folders](const std::string& name) {
-        const fs::path& folder = folders.front();
-        if (name.empty() || name.find("://") != name.npos || name.find('[') != name.npos)
-            throw InputError("expected a file beside the layer, and no other place");
+OpenUsd besideUsd(const FindMesh& find) {
+    return [find](const std::string& name) {
+        if (name.find("://") != name.npos || name.find('[') != name.npos)
+            return UsdFile{"", "", "is no file of its own on this disk"};
+        const std::string file = find(name);
         std::error_code error;
-        const fs::path real = fs::weakly_canonical(folder / name, error);
-        if (error || std::ranges::none_of(folders, [&](const fs::path& one) { return isWithin(real, one); }))
-            throw InputError(
-                "lies outside of " + folder.string() +
-                ", the folder of the first layer; expected it there or in the folder of a --package "
-                "NAME=DIR");
-        if (!fs::exists(real, error)) return UsdFile{"", "", "no such file, " + real.string()};
-        if (!fs::is_regular_file(real, error)) return UsdFile{"", "", "is no regular file, " + real.string()};
-        if (fs::file_size(real, error) > UsdBudget().text)
+        if (!std::filesystem::exists(file, error)) return UsdFile{"", "", "no such file, " + file};
+        if (!std::filesystem::is_regular_file(file, error))
+            return UsdFile{"", "", "is no regular file, " + file};
+        if (std::filesystem::file_size(file, error) > UsdBudget().text)
             throw InputError("expected files of at most 128 MiB in all");
-        return UsdFile{real.string(), readWholeFile(real.string()), ""};
+        return UsdFile{file, readWholeFile(file), ""};
     };
 }
 

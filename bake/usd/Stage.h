@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/robot/RobotScene.h"
 #include "bake/usd/UsdSpec.h"
 
 #include <functional>
@@ -15,9 +16,9 @@ struct UsdFile {
 /// not be read.
 using OpenUsd = std::function<UsdFile(const std::string& name)>;
 
-/// Files in the first layer's folder or below it, or in one of the others, also through links; no others are
-/// read.
-OpenUsd besideUsd(const std::string& file, const std::vector<std::string>& others = {});
+/// Files where a robot's meshes may lie (meshesOf() the first layer). Of other places, as https:// and what
+/// is within a package, there is none.
+OpenUsd besideUsd(const FindMesh& find);
 
 /// A stage: one layer, composed of all that its first one names.
 struct UsdStage {

@@ -38,30 +38,34 @@ TEST_CASE("the arm is the same from its URDF and from UsdPhysics") {
 }
 #endif
 
-TEST_CASE("a stage reads no file outside of its folder, through links neither, and says which it is") {
+TEST_CASE("a stage reads files where a robot's meshes may lie, no others, and says which it is") {
     const Folder folder;
+    const auto robot = folder.path() / "all/robot";
+    std::filesystem::create_directories(robot / "parts");
     writeText(folder.path() / "secret.usda", "#usda 1.0\ndef Cube \"B\" {}\n");
-    std::filesystem::create_directories(folder.path() / "stage/parts");
-    std::filesystem::create_symlink("../secret.usda", folder.path() / "stage/link.usda");
-    writeText(folder.path() / "stage/parts/good.usda",
-              "#usda 1.0\ndef Cube \"B\" ( references = @../own.usda@</C> ) {}\n");
-    writeText(folder.path() / "stage/own.usda", "#usda 1.0\ndef Cube \"C\" {}\n");
-    const auto made = [&](const std::string& file) {
-        writeText(folder.path() / "stage/a.usda",
-                  "#usda 1.0\ndef \"A\" ( references = @" + file + "@</B> ) {}\n");
-        return runTss("make stage/a.usda -o a.tss", folder.path());
+    writeText(folder.path() / "all/hand.usda", "#usda 1.0\ndef Cube \"B\" {}\n");
+    std::filesystem::create_symlink("../../secret.usda", robot / "link.usda");
+    writeText(robot / "parts/good.usda", "#usda 1.0\ndef Cube \"B\" ( references = @../own.usda@</C> ) {}\n");
+    writeText(robot / "own.usda", "#usda 1.0\ndef Cube \"C\" {}\n");
+    const auto made = [&](const std::string& file, const std::string& options = "") {
+        writeText(robot / "a.usda",
+                  "#usda 1.0\ndef \"A\" ( references = @" + file + "@</B> ) {}\ndef Cube \"rest\" {}\n");
+        return runTss("make all/robot/a.usda -o a.tss" + options, folder.path());
     };
-    CHECK(made("parts/good.usda").exit == 0);
-    for (const std::string file : {"../secret.usda", "link.usda", "parts/../../secret.usda", "/etc/passwd",
-                                   "https://example.org/a.usda", "gone.usda", "parts"}) {
-        const Ran ran = made(file);
-        INFO(file << ": " << ran.err);
-        CHECK(ran.exit == 1);
-        CHECK(ran.err.find("@" + file + "@") != std::string::npos);
-        CHECK(ran.err.find("line 2") != std::string::npos);
-    }
-    CHECK(made("../secret.usda").err.find("--package NAME=DIR") != std::string::npos);
-    CHECK(runTss("make stage/a.usda -o a.tss --package all=.", folder.path()).exit == 0);
+    for (const std::string file : {"parts/good.usda", "../hand.usda"}) CHECK(made(file).exit == 0);
+    const auto expectNamed = [&](const Ran& ran, const std::string& file, int exit) {
+        INFO(file << ": " << ran.out << ran.err);
+        CHECK(ran.exit == exit);
+        CHECK((ran.out + ran.err).find("line 2 (</A>): @" + file + "@: ") != std::string::npos);
+    };
+    for (const std::string file :
+         {"../../secret.usda", "link.usda", "parts/../../../secret.usda", "/etc/passwd"})
+        expectNamed(made(file), file, 1);
+    for (const std::string file : {"https://example.org/a.usda", "../../gone.usda", "parts"})
+        expectNamed(made(file), file, 0); // the rest comes in
+    const std::string hint = " --package all=" + std::filesystem::canonical(folder.path()).string();
+    CHECK_THAT(made("../../secret.usda").err, Catch::Contains(hint));
+    CHECK(made("../../secret.usda", hint).exit == 0);
 }
 
 TEST_CASE("a .usda with --srdf or as a mesh's name is refused, and a skin comes back by convert") {

@@ -2,6 +2,7 @@
 // FILE.usda... Exit status 1 where one of them differs, or where OpenUSD finds an error in one.
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/robot/MeshFiles.h"
 #include "bake/usd/Stage.h"
 
 #include <fmt/format.h>
@@ -105,7 +106,8 @@ bool same(const std::string& file) {
     addTheirs(stage->GetPseudoRoot(), theirs);
     theirs.erase(primLine("/", true, "", {}));
     for (const tss::Prim& prim :
-         tss::readStage(tss::readWholeFile(file), file, tss::besideUsd(file)).layer.children)
+         tss::readStage(tss::readWholeFile(file), file, tss::besideUsd(tss::meshesOf(file, {})))
+             .layer.children)
         addOwn(prim, "/" + prim.name, own);
     if (own == theirs) return true;
     int said = 0;
