@@ -42,7 +42,8 @@ std::string_view operationType(const ValueType& type) {
 std::string_view schemaType(const std::string& name) {
     for (const Attribute& attribute : attributes)
         if (name == attribute.name) return attribute.typeName;
-    if (name.starts_with("limit:") ||
+    if (name.starts_with("limit:") || name.starts_with("physxMimicJoint:") ||
+        name.starts_with("newton:mimic") ||
         (name.starts_with("drive:") && name.ends_with(":physics:targetPosition")))
         return "float";
     return {};

@@ -10,14 +10,26 @@ namespace tss {
 
 namespace {
 
-constexpr Attribute excluded{"physics:excludeFromArticulation", "bool", true};
+constexpr Attribute excluded{"physics:excludeFromArticulation", "bool", true},
+    mimicEnabled{"newton:mimicEnabled", "bool"};
 
-/// Its value is coupled to another joint's, as "PhysxMimicJointAPI:rotX" and NewtonMimicAPI say.
-bool isCoupled(const Prim& joint) {
-    const auto schemas = joint.metadata.find("apiSchemas");
-    return schemas != joint.metadata.end() &&
-           std::ranges::any_of(listItems(schemas->second),
-                               [](const std::string& name) { return name.find("Mimic") != name.npos; });
+/// The path of the joint that this one follows and how, in the file's units: "value + gearing * leader +
+/// offset = 0", or "value = coef0 + coef1 * leader".
+void readMimic(const PrimReader& prim, RobotJoint& joint) {
+    const auto schemas = prim.prim().metadata.find("apiSchemas");
+    if (schemas == prim.prim().metadata.end() || !prim.flag(mimicEnabled, true)) return;
+    for (const std::string& api : listItems(schemas->second)) {
+        const bool physx = api.starts_with("PhysxMimicJointAPI:");
+        if (!physx && api != "NewtonMimicAPI") continue;
+        const std::string of =
+            physx ? "physxMimicJoint:" + api.substr(api.find(':') + 1) + ":" : "newton:mimic";
+        const std::string leader = of + (physx ? "referenceJoint" : "Joint"),
+                          factor = of + (physx ? "gearing" : "Coef1"),
+                          offset = of + (physx ? "offset" : "Coef0");
+        joint.leader = prim.target({leader, "rel"});
+        joint.factor = (physx ? -1 : 1) * prim.real({factor, "float"}, 1);
+        joint.offset = (physx ? -1 : 1) * prim.real({offset, "float"}, 0);
+    }
 }
 
 Pose frameAt(const JointEnd& end, const PrimReader& prim, const Attribute& position,
@@ -87,6 +99,7 @@ bool stack(Edge& edge, RobotJoint other) {
     }
     joint.dofs.insert(joint.dofs.end(), other.dofs.begin(), other.dofs.end());
     joint.drives.insert(joint.drives.end(), other.drives.begin(), other.drives.end());
+    if (joint.leader.empty()) joint.leader = other.leader;
     return true;
 }
 
@@ -101,8 +114,9 @@ double valueAt(const Dof& dof, const Pose& child) {
 
 class Joints {
 public:
-    Joints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut)
-        : reading_(reading), findEnd_(findEnd), robot_(robot), leftOut_(leftOut) {}
+    Joints(const SceneReading& reading, const FindJointEnd& findEnd, int world, Robot& robot,
+           LeftOut& leftOut)
+        : reading_(reading), findEnd_(findEnd), world_(world), robot_(robot), leftOut_(leftOut) {}
 
     void read() {
         for (std::size_t i = 0; i < reading_.index.entries.size(); ++i) {
@@ -116,6 +130,7 @@ public:
         std::stable_partition(edges_.begin(), edges_.end(), [](const Edge& edge) { return !edge.last; });
         stackEdges();
         chooseForest();
+        settleLeaders();
     }
 
 private:
@@ -157,8 +172,9 @@ private:
                    frame1 = frameAt(end1, prim, schema::localPos1, schema::localRot1);
         Edge edge;
         edge.last = prim.flag(excluded, false);
-        edge.joint.name = path.substr(path.rfind('/') + 1);
+        edge.joint.name = freeName(path, names_);
         edge.joint.where = path;
+        readMimic(prim, edge.joint);
         edge.joint.parent = end0.link;
         edge.joint.child = end1.link;
         edge.joint.origin = frame0 * frame1.inverse(Eigen::Isometry);
@@ -168,19 +184,17 @@ private:
             Dof dof = read.dofs[k];
             if (dof.lower == 0 && dof.upper == 0) continue; // as good as locked
             if (dof.kind == DofKind::Path) prim.problem("expected no tss:paths in a scene of other software");
-            if (!limit(dof, path)) return;
+            if (!limit(dof, path, edge.joint)) return;
             dof.axis = frame1.linear() * dof.axis;
             dof.origin = frame1.translation();
             edge.joint.dofs.push_back(dof);
             if (moves) edge.joint.drives.push_back(read.drives[k]);
         }
-        if (isCoupled(prim.prim()))
-            leftOut_.add("not read: couplings of joints to others (mimic); each moves by itself", path);
         edges_.push_back(std::move(edge));
     }
 
     /// False where it ties nothing.
-    bool limit(Dof& dof, const std::string& path) {
+    bool limit(Dof& dof, const std::string& path, RobotJoint& joint) {
         constexpr double far = 1e30; // some write the largest float for no limit
         if (dof.kind == DofKind::Translation) {
             if (std::abs(dof.lower) < far && std::abs(dof.upper) < far) return true;
@@ -189,6 +203,7 @@ private:
         }
         if (!(dof.upper - dof.lower < fullTurn)) {
             setWholeTurn(dof);
+            joint.endless = true;
             leftOut_.add(
                 "joints without limits of their turn, or with ones of a turn and more, turn once round",
                 path);
@@ -239,7 +254,8 @@ private:
             at[joint.child + 1].push_back(e);
         }
         std::vector<bool> reached(count + 1), used(edges_.size());
-        for (int root = -1; root < count; ++root) {
+        for (int k = -1; k < count; ++k) {
+            const int root = k < 0 ? world_ : k;
             std::vector<int> open{root};
             if (reached[root + 1]) continue;
             reached[root + 1] = true;
@@ -255,17 +271,42 @@ private:
         }
     }
 
+    /// Leaders by their names, and in radians: in the file it is degrees where a joint turns.
+    void settleLeaders() {
+        const auto unit = [](const RobotJoint& joint) {
+            const bool turns = joint.dofs.size() == 1 && joint.dofs[0].kind == DofKind::Rotation;
+            return turns ? fullTurn / 360 : 1;
+        };
+        for (RobotJoint& joint : robot_.joints) {
+            if (joint.leader.empty()) continue;
+            if (joint.dofs.size() != 1) {
+                leftOut_.add("not read: couplings (mimic) of joints of no value, or of several", joint.where);
+                joint.leader.clear();
+                continue;
+            }
+            joint.offset *= unit(joint);
+            joint.factor *= unit(joint);
+            const auto leader = std::ranges::find(robot_.joints, joint.leader, &RobotJoint::where);
+            if (leader == robot_.joints.end()) continue; // which settleRobot() says
+            joint.factor /= unit(*leader);
+            joint.leader = leader->name;
+        }
+    }
+
     const SceneReading& reading_;
     const FindJointEnd& findEnd_;
+    const int world_;
     Robot& robot_;
     LeftOut& leftOut_;
     std::vector<Edge> edges_;
+    std::set<std::string> names_;
 };
 
 } // namespace
 
-void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut) {
-    Joints(reading, findEnd, robot, leftOut).read();
+void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, int world, Robot& robot,
+                   LeftOut& leftOut) {
+    Joints(reading, findEnd, world, robot, leftOut).read();
 }
 
 void restAsShown(Robot& robot, LeftOut& leftOut) {

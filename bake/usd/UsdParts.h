@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,9 +56,13 @@ struct JointEnd {
 /// The end that a path names; the world for an empty one.
 using FindJointEnd = std::function<JointEnd(const PrimReader& joint, const std::string& path)>;
 
-/// Reads all joints of a stage into the robot, as a forest of `links` links from the world down. What cannot
-/// be one is left out by name.
-void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, Robot& robot, LeftOut& leftOut);
+/// Reads all joints of a stage into the robot, as a forest of its links from `world` down, the link of all
+/// that stands still (-1: there is none). What cannot be one is left out by name.
+void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, int world, Robot& robot,
+                   LeftOut& leftOut);
+
+/// The last name of a path, with as many of those above as make it one that is not taken yet; it is then.
+std::string freeName(const std::string& path, std::set<std::string>& taken);
 
 /// Where bodies stand elsewhere than a joint of one value has them at 0, that rests at the value which it
 /// is shown at. What no value explains is said.

@@ -38,7 +38,7 @@ public:
         addWorld();
         readUsdJoints(
             reading_, [this](const PrimReader& prim, const std::string& path) { return endOf(prim, path); },
-            robot_, leftOut_);
+            worldLink_, robot_, leftOut_);
         tieToWorld();
         readFilteredPairs();
         restAsShown(robot_, leftOut_);
@@ -90,15 +90,7 @@ private:
         if (robot_.links.size() >= most)
             throw InputError(Where{robot_.file, "", path}, "expected no more than 500 bodies");
         RobotLink link;
-        link.name = path.substr(path.rfind('/') + 1);
-        if (!names_.insert(link.name).second) { // with its parents' names, as many as it takes
-            std::string rest = path.substr(0, path.rfind('/'));
-            while (!rest.empty() && names_.contains(link.name)) {
-                link.name = rest.substr(rest.rfind('/') + 1) + "_" + link.name;
-                rest.resize(rest.rfind('/'));
-            }
-            for (int k = 2; !names_.insert(link.name).second; ++k) link.name += std::to_string(k);
-        }
+        link.name = freeName(path, names_);
         link.place = split({world, false}).placement;
         robot_.links.push_back(std::move(link));
         return static_cast<int>(robot_.links.size()) - 1;
@@ -373,6 +365,17 @@ void remarkUnused(const std::vector<Prim>& prims, const std::string& parent, Lef
 }
 
 } // namespace
+
+std::string freeName(const std::string& path, std::set<std::string>& taken) {
+    std::string name = path.substr(path.rfind('/') + 1), above = path.substr(0, path.rfind('/'));
+    while (!above.empty() && taken.contains(name)) {
+        name = above.substr(above.rfind('/') + 1) + "_" + name;
+        above.resize(above.rfind('/'));
+    }
+    for (int k = 2; taken.contains(name); ++k) name += std::to_string(k);
+    taken.insert(name);
+    return name;
+}
 
 std::string messageBelow(const std::string& prim, const InputError& error) {
     const std::string& path = error.where.path;

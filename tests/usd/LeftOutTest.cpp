@@ -111,12 +111,19 @@ TEST_CASE("a shape without a place costs its own body alone, and nothing where i
                   "left out: meshes without a place: /b.xformOp:scale: expected scales that are not 0"));
 }
 
-TEST_CASE("a joint that is coupled to another moves by itself, and it is said") {
+TEST_CASE("a joint whose leader is not there moves by itself, and it is said") {
+    const std::string api = "( prepend apiSchemas = [\"PhysxMimicJointAPI:rotZ\"] ) ";
     std::string coupled = hinge;
-    coupled.insert(coupled.find('{'), "( prepend apiSchemas = [\"PhysxMimicJointAPI:rotZ\"] ) ");
+    coupled.insert(coupled.find('{'), api);
+    coupled.insert(coupled.find("uniform"), "rel physxMimicJoint:rotZ:referenceJoint = </R/gone>\n");
     CHECK(hasNote(robotScene(twoBoxes(coupled)).notes,
-                  "couplings of joints to others (mimic); each moves by itself: /R/j"));
-    CHECK_FALSE(hasNote(robotScene(twoBoxes(hinge)).notes, "mimic"));
+                  "joint j (/R/j) mimics \"/R/gone\", which is no joint that turns or slides within limits: "
+                  "it moves by itself"));
+    const std::string ball = "def PhysicsSphericalJoint \"j\" " + api +
+                             "{ rel physics:body0 = </R/a>\nrel physics:body1 = </R/b>\n"
+                             "rel physxMimicJoint:rotZ:referenceJoint = </R/gone> }";
+    CHECK(hasNote(robotScene(twoBoxes(ball)).notes,
+                  "couplings (mimic) of joints of no value, or of several: /R/j"));
 }
 
 TEST_CASE("a stage without shapes is refused with what it has instead, and nothing is said of meshes") {

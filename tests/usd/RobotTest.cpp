@@ -312,6 +312,68 @@ TEST_CASE("the motion that a file drives its joints by is kept") {
     CHECK(scene.joints[0].drives[0].values[1] == Approx(std::numbers::pi / 4));
 }
 
+namespace {
+
+/// A cube at x = 4 k that hangs on a by a joint of its own: "turns" or "slides".
+std::string follower(int k, const std::string& type, const std::string& said) {
+    const std::string name = std::string(1, static_cast<char>('a' + k));
+    return "def Cube \"" + name +
+           "\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\", "
+           "\"PhysicsCollisionAPI\"] ) {\ndouble3 xformOp:translate = (" +
+           std::to_string(4 * k) + ", 0, 0)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\ndef " +
+           type + " \"j\" " + said + "rel physics:body0 = </R/a>\nrel physics:body1 = </R/" + name +
+           ">\npoint3f physics:localPos0 = (" + std::to_string(4 * k) +
+           ", 0, 0)\nuniform token physics:axis = \"Z\"\n"
+           "float physics:lowerLimit = -5\nfloat physics:upperLimit = 5 } }\n";
+}
+
+} // namespace
+
+TEST_CASE("a joint that mimics another follows it in the scene's motion, as far as that one leads it") {
+    const std::string physx = "( prepend apiSchemas = [\"PhysxMimicJointAPI:rotZ\"] ) {\n"
+                              "rel physxMimicJoint:rotZ:referenceJoint = </R/j>\n",
+                      newton =
+                          "( prepend apiSchemas = [\"NewtonMimicAPI\"] ) {\nrel newton:mimicJoint = </R/j>\n";
+    const RobotScene made =
+        robotScene(twoBoxes(hinge +
+                            follower(2, "PhysicsRevoluteJoint",
+                                     physx + "float physxMimicJoint:rotZ:gearing = 0.5\n"
+                                             "double physxMimicJoint:rotZ:offset = 10\n") +
+                            follower(3, "PhysicsPrismaticJoint", newton + "float newton:mimicCoef1 = 0.1\n") +
+                            follower(4, "PhysicsRevoluteJoint", newton + "bool newton:mimicEnabled = 0\n")));
+    const double degree = std::numbers::pi / 180;
+    const auto jointOf = [&](const char* body) -> const Joint& {
+        return *std::ranges::find_if(made.scene.joints, [&](const Joint& joint) {
+            return made.scene.bodies[joint.body1].path == std::string("/R/") + body;
+        });
+    };
+    const Joint &leader = jointOf("b"), &turns = jointOf("c"), &slides = jointOf("d"), &alone = jointOf("e");
+    CHECK(turns.dofs.at(0).lower == Approx(-55 * degree)); // led by -30 to 90
+    CHECK(turns.dofs.at(0).upper == Approx(5 * degree));
+    CHECK(slides.dofs.at(0).lower == Approx(-3));
+    CHECK(slides.dofs.at(0).upper == Approx(9));
+    CHECK(alone.dofs.at(0).upper == Approx(5 * degree));
+    REQUIRE(turns.drives.at(0).values.size() == leader.drives.at(0).values.size());
+    for (std::size_t k = 0; k < leader.drives[0].values.size(); ++k) {
+        const double value = leader.drives[0].values[k];
+        CHECK(turns.drives[0].values[k] == Approx(-0.5 * value - 10 * degree));
+        CHECK(slides.drives.at(0).values[k] == Approx(0.1 * value / degree));
+    }
+    CHECK(hasNote(made.notes, "joint c_j mimics j, which leads it from -55 to 5 degrees"));
+}
+
+TEST_CASE("where the scenery collides, what a joint ties to the world moves, and the world does not") {
+    const RobotScene made =
+        robotScene("def Cube \"rail\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n"
+                   "def Xform \"cart\" ( prepend apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {\n"
+                   "def Sphere \"c\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {} }\n"
+                   "def PhysicsPrismaticJoint \"slider\" { rel physics:body1 = </cart>\n"
+                   "float physics:lowerLimit = -1\nfloat physics:upperLimit = 1 }");
+    REQUIRE(made.scene.joints.size() == 1);
+    CHECK(made.scene.bodies.at(made.scene.joints[0].body0).path == "/rail/world");
+    CHECK_FALSE(hasNote(made.notes, "free bodies"));
+}
+
 TEST_CASE("a stage without physics is a body a mesh, each where it stands") {
     const SceneModel scene =
         robotScene("def Xform \"W\" { def Cube \"a\" {} def Sphere \"b\" { double3 xformOp:translate = (5, "
