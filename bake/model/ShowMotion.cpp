@@ -2,10 +2,12 @@
 
 namespace tss {
 
-void addShowMotion(SceneModel& scene) {
+void addShowMotion(SceneModel& scene, const std::set<std::size_t>& others) {
     const double codes = 2 * scene.timeCodesPerSecond;
     double start = scene.startTimeCode;
-    for (Joint& joint : scene.joints) {
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+        if (others.contains(j)) continue;
+        Joint& joint = scene.joints[j];
         joint.drives.resize(joint.dofs.size());
         for (std::size_t k = 0; k < joint.dofs.size(); ++k, start += codes) {
             const Dof& dof = joint.dofs[k];

@@ -18,7 +18,8 @@ Where placeOfJoint(const Robot& robot, const RobotJoint& joint) {
 std::string rangeText(const Robot& robot, const Dof& dof) {
     const bool turns = dof.kind == DofKind::Rotation;
     const auto shown = [&](double value) { return turns ? toDegrees(value) : robot.metersPerUnit * value; };
-    return fmt::format("{:.6g} to {:.6g} {}", shown(dof.lower), shown(dof.upper), turns ? "degrees" : "m");
+    return fmt::format("{:.6g} to {:.6g} {}", shown(dof.lower) + 0.0, shown(dof.upper) + 0.0,
+                       turns ? "degrees" : "m");
 }
 
 std::vector<RobotJoint>::const_iterator named(const Robot& robot, const std::string& name) {
@@ -76,11 +77,9 @@ void settleFollower(Robot& robot, RobotJoint& joint) {
     const Dof& led = joint.dofs[0];
     const double rounding = 1e-9 * (own.upper - own.lower);
     const bool beyond = led.lower < own.lower - rounding || led.upper > own.upper + rounding;
-    robot.notes.push_back(
-        "joint " + joint.name + " mimics " + joint.leader + ", which leads it from " + rangeText(robot, led) +
-        (beyond ? ", beyond its own limits " + rangeText(robot, own) : "") +
-        ". The scene's motion couples them; a table lets each move by itself, "
-        "so what is proven never to meet holds, and some contacts of it may need both apart");
+    robot.notes.push_back("joint " + joint.name + " mimics " + joint.leader + ", which leads it from " +
+                          rangeText(robot, led) +
+                          (beyond ? ", beyond its own limits " + rangeText(robot, own) : ""));
 }
 
 void settleHeld(Robot& robot, RobotJoint& joint) {
@@ -162,6 +161,11 @@ void settleRobot(Robot& robot) {
         if (!joint.leader.empty()) settleLeader(robot, joint);
     for (RobotJoint& joint : robot.joints)
         if (!joint.leader.empty()) settleFollower(robot, joint);
+    if (std::ranges::any_of(robot.joints, [](const RobotJoint& joint) { return !joint.leader.empty(); }))
+        robot.notes.push_back(
+            "the scene's motion couples joints that mimic others; a table lets each move by "
+            "itself, so what is proven never to meet holds, and some contacts of it may "
+            "need both apart");
     for (RobotJoint& joint : robot.joints) settleEndless(robot, joint); // those that are led so far
     std::vector<RobotJoint> kept;
     for (const RobotJoint& joint : robot.joints)

@@ -171,6 +171,10 @@ private:
         });
     }
 
+    bool isLed(const RobotJoint& joint) const {
+        return !joint.dofs.empty() && leaderOf(joint) != robot_.joints.end();
+    }
+
     /// Where its leader at a value leads a joint.
     static double led(const RobotJoint& joint, double value) {
         return std::clamp(joint.factor * value + joint.offset, joint.dofs[0].lower, joint.dofs[0].upper);
@@ -243,7 +247,10 @@ private:
         const auto driven = [](const RobotJoint& joint) { return !joint.drives.empty(); };
         SceneModel& scene = result_.scene;
         if (std::ranges::none_of(robot_.joints, driven)) {
-            addShowMotion(scene);
+            std::set<std::size_t> led;
+            for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+                if (isLed(robot_.joints[j])) led.insert(chains_[j].front());
+            addShowMotion(scene, led);
             return coupleMotion();
         }
         scene.timeCodesPerSecond = robot_.timeCodesPerSecond;
@@ -262,12 +269,12 @@ private:
         std::vector<Joint>& joints = result_.scene.joints;
         for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
             const RobotJoint& joint = robot_.joints[j];
+            if (!isLed(joint)) continue;
             const auto leader = leaderOf(joint);
-            if (leader == robot_.joints.end() || joint.dofs.empty()) continue;
             Joint& follower = joints[chains_[j].front()];
             TimeSamples drive = joints[chains_[leader - robot_.joints.begin()].front()].drives[0];
             for (double& value : drive.values) value = led(joint, value);
-            follower.drives[0] = drive;
+            follower.drives = {drive};
         }
     }
 

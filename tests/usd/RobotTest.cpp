@@ -359,6 +359,7 @@ TEST_CASE("a joint that mimics another follows it in the scene's motion, as far 
         CHECK(turns.drives[0].values[k] == Approx(-0.5 * value - 10 * degree));
         CHECK(slides.drives.at(0).values[k] == Approx(0.1 * value / degree));
     }
+    CHECK(made.scene.endTimeCode == 2 * 48); // of two joints, one after the other
     CHECK(hasNote(made.notes, "joint c_j mimics j, which leads it from -55 to 5 degrees"));
 }
 
