@@ -23,7 +23,7 @@ osg::Matrixd toOsg(const tss::Pose& pose) {
     return matrix;
 }
 
-std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
+std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix, double share) {
     Eigen::Matrix3d linear;
     tss::Vec3 translation;
     for (int row = 0; row < 3; ++row) {
@@ -42,7 +42,7 @@ std::optional<Similarity> toSimilarity(const osg::Matrixd& matrix) {
     }
     const tss::SingularValues svd = tss::singularValues(linear);
     const tss::Vec3& scales = svd.values;
-    if (!(scales[2] > 0) || scales[0] - scales[2] > fewDigits * scales[0]) return std::nullopt;
+    if (!(scales[2] > 0) || scales[0] - scales[2] > share * scales[0]) return std::nullopt;
     const Eigen::Matrix3d rotation = svd.u * svd.v.transpose();
     const double hand = rotation.determinant() < 0 ? -1 : 1;
     result.pose.linear() = hand * rotation;

@@ -66,4 +66,17 @@ public:
             keys->push_back(osgAnimation::QuatKeyframe(step * double(keys->size()), one));
         animation->addChannel(channel);
     }
+
+    /// The same as whole matrices, as Collada's files have them.
+    void addMatrixKeys(const std::string& bone, const std::vector<osg::Quat>& turns, double step) {
+        osg::ref_ptr<osgAnimation::MatrixLinearChannel> channel = new osgAnimation::MatrixLinearChannel;
+        channel->setName("bindmatrix");
+        channel->setTargetName(bone);
+        const osg::Matrixd local = bones.at(bone)->getMatrix();
+        auto* keys = channel->getOrCreateSampler()->getOrCreateKeyframeContainer();
+        for (const osg::Quat& one : turns)
+            keys->push_back(osgAnimation::MatrixKeyframe(step * double(keys->size()),
+                                                         osg::Matrixf(osg::Matrixd::rotate(one) * local)));
+        animation->addChannel(channel);
+    }
 };

@@ -8,14 +8,21 @@ public:
     static constexpr float shoulder = 1.0f, elbow = 0.7f, half = 0.1f;
     static constexpr double swing = 60, lift = 4, bend = 15; ///< of the keys, degrees
 
-    Sitter() {
+    /// matrices: keys of the arm are whole matrices this many degrees apart; 0: turns.
+    explicit Sitter(double matrices = 0) {
         addBone("Torso", "", osg::Matrix());
         addBone("Thigh", "Torso", osg::Matrix::translate(0.2f, 0, 0));
         addBone("Upper", "Torso", osg::Matrix::translate(0.2f, 0, shoulder));
         addBone("Fore", "Upper", osg::Matrix::translate(elbow, 0, shoulder));
         addMesh();
         addKeys("Thigh", {turn(0), turn(-lift), turn(0)}, 2);
-        addKeys("Upper", {turn(0), turn(swing), turn(0)}, 2);
+        if (matrices > 0) {
+            std::vector<osg::Quat> turns;
+            for (double at = -swing; at <= swing; at += matrices) turns.push_back(turn(swing - std::abs(at)));
+            addMatrixKeys("Upper", turns, 2 * matrices / swing);
+        } else {
+            addKeys("Upper", {turn(0), turn(swing), turn(0)}, 2);
+        }
         addKeys("Fore", {turn(-bend), turn(bend), turn(-bend)}, 2);
         manager->registerAnimation(animation);
     }

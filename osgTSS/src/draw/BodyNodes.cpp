@@ -90,8 +90,8 @@ std::optional<osg::Matrixd> toAbove(osg::Node& owner, osg::Node& node) {
 
 tss::Pose carriedSince(const osg::Matrixd& world, const osg::Matrixd& toFrame, double scale,
                        const tss::Pose& restInverse) {
-    constexpr double rounding = 1e-12;
-    const auto now = toSimilarity(world * toFrame);
+    constexpr double rounding = 1e-12, blended = 0.1; // bones between matrices as keys, which shear a little
+    const auto now = toSimilarity(world * toFrame, blended);
     if (!now) return tss::Pose::Identity();
     tss::Pose inFrame = now->pose;
     inFrame.translation() *= scale;

@@ -86,7 +86,7 @@ private:
         _look.matrix = matrix;
         _look.values.assign(_dofs.dofs().size(), 0);
         _look.fits = false;
-        const auto rigid = toSimilarity(matrix);
+        const auto rigid = toSimilarity(matrix, _still);
         if (!rigid) return _look;
         _look.scale = rigid->scale;
         _look.values = _dofs.valuesOf(_frame0.inverse(Eigen::Isometry) * rigid->pose * _frame1);

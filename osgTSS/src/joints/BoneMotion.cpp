@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace osgTSS {
 
@@ -34,13 +35,11 @@ struct Samples {
     std::size_t rest = 0; ///< which of them
 
     void add(const osg::Matrixd& matrix, bool first) {
-        const auto similarity = toSimilarity(matrix);
-        if (!similarity)
-            throw tss::InputError(
-                "its keys shear it, or scale its axes differently; between matrices as keys "
-                "that are far apart in angle OpenSceneGraph does: write more of them");
+        constexpr double most = 0.05;
+        const auto similarity = toSimilarity(matrix, std::max(still, most));
+        if (!similarity) throw tss::InputError("its keys shear it, or scale its axes differently");
         if (scale == 0) scale = similarity->scale;
-        if (std::abs(similarity->scale - scale) > fewDigits * std::abs(scale))
+        if (std::abs(similarity->scale - scale) > std::max(still, similarity->off) * std::abs(scale))
             throw tss::InputError(std::string("its keys change its size") +
                                   (skin ? ", which its skin does not follow" : ""));
         off = std::max(off, similarity->off);
@@ -55,6 +54,14 @@ Samples samplesOf(osgAnimation::Bone& bone, const AnimationChannels& channels) {
     samples.skin = wearsSkin(bone);
     for (const auto& run : boneRuns(bone, channels))
         for (std::size_t k = 0; k < run.size(); ++k) samples.add(run[k], k == 0);
+    if (samples.off > samples.still) {
+        std::ostringstream text;
+        text.precision(2);
+        text << "between its keys, which are matrices, OpenSceneGraph scales its axes differently, by up to "
+             << 100 * samples.off << " %: still=" << std::ceil(20 * samples.off * 360 / tss::fullTurn) / 20
+             << " in -O takes that for none, more keys make it less";
+        throw tss::InputError(text.str());
+    }
     const std::optional<osg::Matrixd> bound = boneBound(bone);
     // A bone that no key moves may stand otherwise than it is bound, which only a skin looks at.
     const bool keyed = !samples.all.empty();
@@ -260,8 +267,8 @@ FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channe
         const Eigen::Matrix3d known = tss::jointPose(joint, values).linear();
         found.off = std::max(found.off, (known - samples.all[k].pose.linear()).cwiseAbs().maxCoeff());
     }
-    // A text file's digits are worth no word for each of so many bones.
-    if (found.off < fewDigits) found.off = 0;
+    // Neither a text file's digits nor what was taken for standing still are worth a word for each bone.
+    if (found.off <= samples.still) found.off = 0;
     if (joint.dofs.empty()) { // it stands as its first key has it
         joint.frame0 = samples.all.front().pose;
         joint.frame1 = tss::Pose::Identity();

@@ -14,8 +14,9 @@ namespace osgTSS {
 /// end: animations that are blended go a little beyond either.
 inline constexpr double boneSlack = 0.05;
 
-/// Turns of less than this (radians, from the mean of all keys) are no degree of freedom: what keys are
-/// rounded by, or the user value "osgTSS:still" (degrees) of the bone.
+/// Turns of less than this (radians, from the mean of all keys) are no degree of freedom, and axes that are
+/// scaled differently by less are a turn all the same: what keys are rounded by, and bones sheared between
+/// matrices as keys; or the user value "osgTSS:still" (degrees) of the bone.
 double boneStill(const osg::Node& bone);
 
 /// How a bone moves against its parent node, by the keys of all animations and the pose that it was bound in.
