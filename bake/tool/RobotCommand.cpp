@@ -46,9 +46,11 @@ void remarkBodySizes(const SceneModel& scene, const Console& console) {
     for (const Body& body : scene.bodies) {
         const double size = body.mesh.empty() ? 0 : diagonal(body.mesh) * scene.metersPerUnit;
         if (isOddSize(size))
-            console.say(fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
-                                    "say what it is: a scale in a robot's file, else --meters-per-unit",
-                                    body.path, lengthText(size, 1), scene.metersPerUnit));
+            console.say(
+                fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
+                            "say what it is: metersPerUnit of a stage, a scale in another robot's file, else "
+                            "--meters-per-unit",
+                            body.path, lengthText(size, 1), scene.metersPerUnit));
     }
 }
 

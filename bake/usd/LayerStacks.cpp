@@ -75,7 +75,7 @@ std::optional<std::string> LayerStacks::nameOf(const UsdLayer& from, const UsdSp
     } catch (const InputError& error) {
         refuse(from, spec, path, "@" + asset + "@: " + error.message);
     }
-    if (opened.missing.empty()) opened.missing = notUsda(opened.text, opened.file);
+    if (opened.missing.empty()) opened.missing = notUsda(opened.text, files_[""]->file);
     if (!opened.missing.empty()) {
         leaveOut(from, spec, path, "@" + asset + "@: " + opened.missing);
         return std::nullopt;

@@ -367,10 +367,10 @@ private:
 
 } // namespace
 
-std::string notUsda(std::string_view text, const std::string& file) {
+std::string notUsda(std::string_view text, const std::string& first) {
     if (text.starts_with("PXR-USDC") || text.starts_with("PK\x03\x04"))
         return std::string("is a ") + (text[1] == 'X' ? "binary layer" : "package") +
-               " of USD; expected its text form: usdcat -o scene.usda " + file;
+               " of USD; expected text: usdcat --flatten -o scene.usda " + first + " makes one of all layers";
     if (!text.starts_with("#usda 1."))
         return "expected a layer of USD in text form, which begins with #usda 1.0";
     return "";

@@ -5,7 +5,8 @@
 namespace tss {
 
 /// What is wrong with a file that is no text of USD: a binary layer, a package, another format; else empty.
-std::string notUsda(std::string_view text, const std::string& file);
+/// first: the file of the stage's first layer.
+std::string notUsda(std::string_view text, const std::string& first);
 
 /// Reads one layer from USD's text form. Everything of it is kept, but for what has no value (the order of
 /// children and properties) and what is noted. folder: of the file, relative to that of the first layer,

@@ -326,9 +326,10 @@ void restAsShown(Robot& robot, LeftOut& leftOut) {
             if (isShown()) continue;
             joint.dofs[0].rest = 0;
         }
-        leftOut.add("bodies that the file shows elsewhere than their joint has them at 0; values count "
-                    "from the joint's frames",
-                    robot.links[joint.child].name);
+        leftOut.add(
+            "bodies that the file shows elsewhere than their joint, within its limits, has them at rest; "
+            "values count from the joint's frames",
+            robot.links[joint.child].name);
     }
 }
 

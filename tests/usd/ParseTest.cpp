@@ -84,7 +84,12 @@ TEST_CASE("what is wrong with a .usda is said with its line and prim") {
     const auto whole = [](const std::string& text) {
         return refusal([&] { stageOf(Files{{"root.usda", text}}); });
     };
-    CHECK(whole("PXR-USDC...").find("usdcat -o scene.usda root.usda") != std::string::npos);
+    CHECK(whole("PXR-USDC...").find("usdcat --flatten -o scene.usda root.usda") != std::string::npos);
+    CHECK(hasNote(
+        stageOf(Files{{"root.usda", "#usda 1.0\ndef \"A\" ( references = @b.usd@ ) {}"},
+                      {"b.usd", "PXR-USDC..."}})
+            .notes,
+        "@b.usd@: is a binary layer of USD; expected text: usdcat --flatten -o scene.usda root.usda"));
     CHECK(whole("{}").find("begins with #usda 1.0") != std::string::npos);
 }
 
