@@ -112,6 +112,29 @@ double valueAt(const Dof& dof, const Pose& child) {
     return nearestTurn(value, (dof.lower + dof.upper) / 2);
 }
 
+Pose placeOf(const Robot& robot, int link) {
+    return link >= 0 ? robot.links[link].place : Pose::Identity();
+}
+
+/// A joint of one value is let rest at that which has its child where the file shows it. False where the
+/// joint has it elsewhere all the same.
+bool findRest(const Robot& robot, RobotJoint& joint) {
+    const Pose origin = placeOf(robot, joint.parent) * joint.origin, stands = placeOf(robot, joint.child);
+    const auto isShown = [&] {
+        Pose should = origin;
+        for (const Dof& dof : joint.dofs)
+            should = should * dofPose(dof, std::clamp(dof.rest, dof.lower, dof.upper));
+        const double size = 1 + should.translation().norm() + stands.translation().norm();
+        return (should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() <= 1e-3 * size;
+    };
+    if (isShown()) return true;
+    if (joint.dofs.size() != 1) return false;
+    joint.dofs[0].rest = valueAt(joint.dofs[0], origin.inverse(Eigen::Isometry) * stands);
+    if (isShown()) return true;
+    joint.dofs[0].rest = 0;
+    return false;
+}
+
 class Joints {
 public:
     Joints(const SceneReading& reading, const FindJointEnd& findEnd, int world, Robot& robot,
@@ -149,8 +172,8 @@ private:
         const std::string path = prim.place().path;
         if (!prim.flag(schema::jointEnabled, true))
             return leftOut_.add("left out: joints that are not enabled", path);
-        const JointEnd end0 = findEnd_(prim, prim.target(schema::body0)),
-                       end1 = findEnd_(prim, prim.target(schema::body1));
+        const std::string body0 = prim.target(schema::body0), body1 = prim.target(schema::body1);
+        const JointEnd end0 = findEnd_(prim, body0), end1 = findEnd_(prim, body1);
         if (end0.link == end1.link)
             return leftOut_.add("left out: joints that tie a body to itself, or the world", path);
         if (!changingOf(prim.prim()).empty())
@@ -190,7 +213,20 @@ private:
             edge.joint.dofs.push_back(dof);
             if (moves) edge.joint.drives.push_back(read.drives[k]);
         }
+        if (body0.empty() || body1.empty()) tieWhereShown(edge.joint);
         edges_.push_back(std::move(edge));
+    }
+
+    /// The frame of a joint in the world is often one below what the robot hangs in, or none at all: who
+    /// simulates such joints lets the body stand where the file shows it (newton-physics/newton, PhysX's
+    /// articulations).
+    void tieWhereShown(RobotJoint& joint) {
+        if (findRest(robot_, joint)) return;
+        joint.origin = placeOf(robot_, joint.parent).inverse(Eigen::Isometry) * placeOf(robot_, joint.child);
+        leftOut_.add(
+            "joints to the world, whose frame there is elsewhere than the file shows their body: taken "
+            "where it shows it",
+            joint.where);
     }
 
     /// False where it ties nothing.
@@ -310,27 +346,12 @@ void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, int
 }
 
 void restAsShown(Robot& robot, LeftOut& leftOut) {
-    for (RobotJoint& joint : robot.joints) {
-        const Pose parent = joint.parent >= 0 ? robot.links[joint.parent].place : Pose::Identity(),
-                   origin = parent * joint.origin, stands = robot.links[joint.child].place;
-        const auto isShown = [&] {
-            Pose should = origin;
-            for (const Dof& dof : joint.dofs)
-                should = should * dofPose(dof, std::clamp(dof.rest, dof.lower, dof.upper));
-            const double size = 1 + should.translation().norm() + stands.translation().norm();
-            return (should.matrix() - stands.matrix()).cwiseAbs().maxCoeff() <= 1e-3 * size;
-        };
-        if (isShown()) continue;
-        if (joint.dofs.size() == 1) {
-            joint.dofs[0].rest = valueAt(joint.dofs[0], origin.inverse(Eigen::Isometry) * stands);
-            if (isShown()) continue;
-            joint.dofs[0].rest = 0;
-        }
-        leftOut.add(
-            "bodies that the file shows elsewhere than their joint, within its limits, has them at rest; "
-            "values count from the joint's frames",
-            robot.links[joint.child].name);
-    }
+    for (RobotJoint& joint : robot.joints)
+        if (!findRest(robot, joint))
+            leftOut.add(
+                "bodies that the file shows elsewhere than their joint, within its limits, has them at rest; "
+                "values count from the joint's frames",
+                robot.links[joint.child].name);
 }
 
 } // namespace tss

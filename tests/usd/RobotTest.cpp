@@ -363,6 +363,19 @@ TEST_CASE("a joint that mimics another follows it in the scene's motion, as far 
     CHECK(hasNote(made.notes, "joint c_j mimics j, which leads it from -55 to 5 degrees"));
 }
 
+TEST_CASE("a joint to the world ties its body where the stage shows it") {
+    std::string moved =
+        twoBoxes(std::string(hinge) + "def PhysicsFixedJoint \"f\" { rel physics:body1 = </R/a> }\n");
+    moved.insert(
+        moved.find("def Xform \"a\""),
+        "double3 xformOp:translate = (0, 0, 7)\nuniform token[] xformOpOrder = [\"xformOp:translate\"]\n");
+    const RobotScene made = robotScene(moved);
+    CHECK(bodyCalled(made.scene, "a").placement.translation() == Vec3(0, 0, 7));
+    CHECK(bodyCalled(made.scene, "b").placement.translation().isApprox(Vec3(4, 0, 7)));
+    CHECK(hasNote(made.notes, "taken where it shows it: /R/f"));
+    CHECK_FALSE(hasNote(made.notes, "shows elsewhere"));
+}
+
 TEST_CASE("where the scenery collides, what a joint ties to the world moves, and the world does not") {
     const RobotScene made =
         robotScene("def Cube \"rail\" ( prepend apiSchemas = [\"PhysicsCollisionAPI\"] ) {}\n"
