@@ -94,7 +94,7 @@ std::vector<std::string> listItems(const Value& value) {
         for (const Value& item : *array)
             if (const auto* text = item.as<std::string>()) items.push_back(*text);
     } else if (const auto* ops = value.as<Value::Object>()) {
-        for (const char* key : {"explicit", "prepend", "append"}) appendItems(*ops, key, items);
+        for (const char* key : {"explicit", "prepend", "add", "append"}) appendItems(*ops, key, items);
     }
     return items;
 }

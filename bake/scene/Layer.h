@@ -62,7 +62,7 @@ Prim& makePrim(Layer& layer, std::string_view path, const std::string& typeName)
 /// Takes the prim and everything below it away. Nothing happens when there is none.
 void removePrim(Layer& layer, std::string_view path);
 
-/// The items of an array of strings, or of a list op: explicit ones, or prepended and then appended ones.
+/// The items of an array of strings, or of a list op: explicit ones, or prepended, added and appended ones.
 std::vector<std::string> listItems(const Value& value);
 
 /// The prim has this API schema, with its instance name for a multiple-apply one: "PhysicsDriveAPI:rotX".

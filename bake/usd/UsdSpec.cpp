@@ -45,12 +45,7 @@ std::size_t costOf(const UsdSpec& spec) {
 
 std::vector<std::string> arcsOf(const Prim& prim, const char* key) {
     const auto found = prim.metadata.find(key);
-    if (found == prim.metadata.end()) return {};
-    std::vector<std::string> items = listItems(found->second);
-    if (const auto* ops = found->second.as<Value::Object>())
-        if (const auto added = ops->find("add"); added != ops->end())
-            for (const std::string& item : listItems(added->second)) items.push_back(item);
-    return items;
+    return found == prim.metadata.end() ? std::vector<std::string>() : listItems(found->second);
 }
 
 static void mergeSpec(UsdSpec& stronger, UsdSpec weaker) {

@@ -157,6 +157,19 @@ TEST_CASE("an arc that leads back to itself is left out by name, sublayers that 
               std::string::npos);
 }
 
+TEST_CASE("instances as usdcat --flatten writes them have the shapes of their prototype") {
+    const std::string body = "( add apiSchemas = [\"PhysicsRigidBodyAPI\"] ) {\n def Xform \"collisions\" ( "
+                             "instanceable = true\n add references = [</Flattened_Prototype_1>] ) {} }\n";
+    const SceneModel scene =
+        robotScene(
+            "over \"Flattened_Prototype_1\" { def Cube \"c\" ( add apiSchemas = [\"PhysicsCollisionAPI\"] "
+            ") {} }\ndef Xform \"R\" {\n def Xform \"a\" " +
+            body + " def Xform \"b\" " + body + "}")
+            .scene;
+    REQUIRE(scene.bodies.size() == 2);
+    for (const Body& one : scene.bodies) CHECK(one.mesh.triangles.size() == 12);
+}
+
 TEST_CASE("references that make more of each other than fits are refused") {
     std::string text = "class \"C0\" { double x = 1 }\n";
     for (int k = 1; k < 40; ++k) {
