@@ -68,7 +68,10 @@ public:
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(file))) return ReadResult::FILE_NOT_HANDLED;
         const std::string source = osgDB::getNameLessExtension(file);
         osg::ref_ptr<osg::Node> root = osgDB::readRefNodeFile(source, options);
-        if (!root) return ReadResult(source + ": its plugin does not read it, or there is none");
+        if (!root)
+            return ReadResult(source +
+                              ": no plugin of OpenSceneGraph reads it; of a robot or of meshes 'tss make' "
+                              "makes a scene that is shown");
         try {
             const osgTSS::LoadOptions load(options ? options->getOptionString() : std::string());
             bake(*root, load, source);

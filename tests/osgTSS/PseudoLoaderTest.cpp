@@ -193,7 +193,14 @@ TEST_CASE("for a first look pairs over many joint values, and they alone, get co
     }
 }
 
-TEST_CASE("a pseudo-loader's file that is not there is refused") {
-    CHECK_FALSE(
-        osgDB::Registry::instance()->readNode((scratch() / "nothing.osgt.tss").string(), nullptr).success());
+TEST_CASE(
+    "a pseudo-loader's file that is not there, or that no plugin reads, is refused with a word of why") {
+    const auto refused = [](const std::string& name) {
+        const auto result = osgDB::Registry::instance()->readNode((scratch() / name).string(), nullptr);
+        CHECK_FALSE(result.success());
+        return result.message();
+    };
+    refused("nothing.osgt.tss");
+    std::ofstream(scratch() / "robot.usda") << "#usda 1.0\n";
+    CHECK_THAT(refused("robot.usda.tss"), Catch::Contains("'tss make' makes a scene"));
 }
