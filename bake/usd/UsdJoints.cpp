@@ -340,6 +340,17 @@ private:
 
 } // namespace
 
+std::string freeName(const std::string& path, std::set<std::string>& taken) {
+    std::string name = path.substr(path.rfind('/') + 1), above = path.substr(0, path.rfind('/'));
+    while (!above.empty() && taken.contains(name)) {
+        name = above.substr(above.rfind('/') + 1) + "_" + name;
+        above.resize(above.rfind('/'));
+    }
+    for (int k = 2; taken.contains(name); ++k) name += std::to_string(k);
+    taken.insert(name);
+    return name;
+}
+
 void readUsdJoints(const SceneReading& reading, const FindJointEnd& findEnd, int world, Robot& robot,
                    LeftOut& leftOut) {
     Joints(reading, findEnd, world, robot, leftOut).read();

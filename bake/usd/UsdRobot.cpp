@@ -35,6 +35,7 @@ public:
         readMetadata();
         findLinks();
         placeGprims();
+        noteOthers();
         addWorld();
         readUsdJoints(
             reading_, [this](const PrimReader& prim, const std::string& path) { return endOf(prim, path); },
@@ -88,7 +89,8 @@ private:
     int addLink(const std::string& path, const Eigen::Affine3d& world) {
         constexpr std::size_t most = 500;
         if (robot_.links.size() >= most)
-            throw InputError(Where{robot_.file, "", path}, "expected no more than 500 bodies");
+            throw InputError(Where{robot_.file, "", path},
+                             "expected no more than 500 bodies; of many robots a layer that references one");
         RobotLink link;
         link.name = freeName(path, names_);
         link.place = split({world, false}).placement;
@@ -175,6 +177,14 @@ private:
         }
     }
 
+    /// In one note, since there are many of them that have no part in this: looks, lights, a simulator's own.
+    void noteOthers() {
+        std::vector<std::string> types;
+        for (const auto& [type, paths] : others_) types.push_back(type + " (" + firstOf(paths, 1) + ")");
+        if (!types.empty())
+            robot_.notes.push_back("left out: prims of other types: " + firstOf(types, types.size()));
+    }
+
     /// A shape that cannot be had: of the rest of its link alone nothing can be proven. The world does
     /// without planes.
     void addUnread(std::size_t entry, int link, bool collider) {
@@ -215,11 +225,12 @@ private:
     void remark(std::size_t entry) {
         const Prim& prim = *entries_[entry].prim;
         const std::string& type = prim.typeName;
-        if (!isGroup(prim) && !isGprim(prim) && type.find("Joint") == type.npos)
-            leftOut_.add(
-                "left out: " + std::string(colliders_.is(entry) ? "colliders of type " : "prims of type ") +
-                    type,
-                pathOf(entry));
+        if (!isGroup(prim) && !isGprim(prim) && type.find("Joint") == type.npos) {
+            if (colliders_.is(entry))
+                leftOut_.add("left out: colliders of type " + type, pathOf(entry));
+            else
+                others_[type].push_back(pathOf(entry));
+        }
         if (colliders_.is(entry) && isGroup(prim))
             leftOut_.add("colliders that are no gprims themselves: all that is below them collides",
                          pathOf(entry));
@@ -344,6 +355,7 @@ private:
     std::vector<Xform> world_;
     Robot robot_;
     LeftOut leftOut_;
+    std::map<std::string, std::vector<std::string>> others_; ///< prims of types that are not read, by type
     RobotLink scenery_;
     int worldLink_ = -1;
     std::vector<int> linkOf_;         ///< by entry: its link, or that of a prim above it
@@ -365,17 +377,6 @@ void remarkUnused(const std::vector<Prim>& prims, const std::string& parent, Lef
 }
 
 } // namespace
-
-std::string freeName(const std::string& path, std::set<std::string>& taken) {
-    std::string name = path.substr(path.rfind('/') + 1), above = path.substr(0, path.rfind('/'));
-    while (!above.empty() && taken.contains(name)) {
-        name = above.substr(above.rfind('/') + 1) + "_" + name;
-        above.resize(above.rfind('/'));
-    }
-    for (int k = 2; taken.contains(name); ++k) name += std::to_string(k);
-    taken.insert(name);
-    return name;
-}
 
 std::string messageBelow(const std::string& prim, const InputError& error) {
     const std::string& path = error.where.path;

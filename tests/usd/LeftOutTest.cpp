@@ -129,6 +129,6 @@ TEST_CASE("a joint whose leader is not there moves by itself, and it is said") {
 TEST_CASE("a stage without shapes is refused with what it has instead, and nothing is said of meshes") {
     CHECK_THROWS_WITH(robotScene("def Camera \"c\" {}"),
                       Catch::Contains("found none") &&
-                          Catch::Contains("left out: prims of type Camera: /c") &&
+                          Catch::Contains("left out: prims of other types: Camera (/c)") &&
                           !Catch::Contains("each mesh"));
 }
