@@ -31,6 +31,11 @@ void BakeTurns::beginRound() {
     if (round_ == 1) briefUntil_ = Deadline(left / 2);
 }
 
+void BakeTurns::cutShort() {
+    cut_.push_back(last_);
+    if (round_ > 1) turn_ = 2 * last_.tried;
+}
+
 std::optional<BakeTurns::Turn> BakeTurns::next() {
     while (!until_.over()) {
         if (waiting_.empty() || (round_ == 1 && briefUntil_.over())) {

@@ -18,9 +18,9 @@ constexpr std::size_t fewToBake = 8;
 /// What is baked next, and until when. Without a time limit each item has one turn without one. With one
 /// there are rounds, for how long an item takes is not known beforehand: where more than eight wait, brief
 /// turns of a hundredth of the time, for half of it at most, so that what is quick is done; then turns of a
-/// quarter of the time that is left, or of a fair share where that is longer, in the order given, as far as
-/// the time goes; then all that is left. One that was cut short has no further turn of less than twice the
-/// time.
+/// quarter of the time that is left, or of a fair share where that is longer, twice as long after one that
+/// was too short, in the order given, as far as the time goes; then all that is left. One that was cut short
+/// has no further turn of less than twice the time.
 class BakeTurns {
 public:
     struct Turn {
@@ -35,7 +35,7 @@ public:
     std::optional<Turn> next();
 
     /// The turn that next() gave last was too short.
-    void cutShort() { cut_.push_back(last_); }
+    void cutShort();
 
 private:
     struct Waiting {

@@ -30,20 +30,30 @@ TEST_CASE("without a time limit each has one turn without one, in the order give
     CHECK(itemsOf(turns) == std::vector<std::size_t>{2, 9});
 }
 
-TEST_CASE("many have a brief turn each, then a quarter of the time, then all that is left") {
+TEST_CASE(
+    "many have a brief turn each, then a quarter of the time, twice as long after one that was cut short") {
     std::vector<std::size_t> many;
     for (std::size_t k = 0; k < 100; ++k) many.push_back(99 - k);
     BakeTurns turns(many, Deadline(1000));
-    for (const double seconds : {10.0, 250.0, 1000.0})
-        for (const std::size_t item : many) {
-            const auto turn = turns.next();
-            REQUIRE(turn);
-            CHECK(turn->item == item);
-            CHECK(turn->until.left() == Approx(seconds).epsilon(0.01));
-            CHECK(turn->brief == (seconds < 100));
-            turns.cutShort();
-        }
-    CHECK_FALSE(turns.next()); // no more time than before
+    const auto expectTurn = [&](std::size_t item, double seconds) {
+        const auto turn = turns.next();
+        REQUIRE(turn);
+        CHECK(turn->item == item);
+        CHECK(turn->until.left() == Approx(seconds).epsilon(0.01));
+        CHECK(turn->brief == (seconds < 100));
+    };
+    for (const std::size_t item : many) {
+        expectTurn(item, 10);
+        turns.cutShort();
+    }
+    expectTurn(99, 250);
+    expectTurn(98, 250);
+    turns.cutShort();
+    expectTurn(97, 500);
+    turns.cutShort();
+    for (std::size_t item = 97; item-- > 0;) expectTurn(item, 1000);
+    expectTurn(98, 1000);      // with all that is left
+    CHECK_FALSE(turns.next()); // 97: no more than twice the time
     CHECK_FALSE(BakeTurns({0}, Deadline(0)).next());
 }
 
@@ -67,7 +77,7 @@ TEST_CASE("few have no brief turn, and a fair share where that is more than a qu
         const auto turn = turns.next();
         REQUIRE(turn);
         CHECK(turn->item == item);
-        CHECK(turn->until.left() == Approx(500).epsilon(0.01));
+        CHECK(turn->until.left() == Approx(item == 5 ? 500 : 1000).epsilon(0.01));
         CHECK_FALSE(turn->brief);
         if (item == 5) turns.cutShort();
     }
