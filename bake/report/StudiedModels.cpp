@@ -75,7 +75,8 @@ public:
     /// Tables over the base's spheres for other epsilons.
     void addEpsilons() {
         study_.epsilons.push_back(study_.base);
-        for (const double factor : quick_ ? std::vector{0.1, 1.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
+        for (const double factor :
+             quick_ ? std::vector{0.1, 1.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0}) {
             BakeOptions changed = base->recipe.options;
             changed.epsilon = factor * *changed.tolerance;
             const Recipe recipe = named(changed, study_.millimetres);
@@ -113,8 +114,9 @@ public:
             addTable(sampled, "our spheres, the paper's sampled search and its reduction by co-occurrence");
             sampled.name = "minimal over samples";
             sampled.options.reduce = ReduceMethod::Minimal;
-            addTable(sampled,
-                     "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)");
+            addTable(
+                sampled,
+                "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)");
         }
         const compare::ComparedPair& problem = base->problem;
         const AtRest asked = optionsFor(pair_.settings, {}, scene_.metersPerUnit).atRest;
@@ -124,11 +126,11 @@ public:
         const bool ignored = asked == AtRest::Ignore;
         Recipe atRest{ignored ? "at rest: ignore" : "at rest: offset", base->recipe.options};
         atRest.options.atRest = asked;
-        addSpheres(atRest, ignored
-                               ? "what `tss bake` stores by the scene's settings: the region that overlaps at "
-                                 "rest never touches"
-                               : "what `tss bake` stores: the region that overlaps at rest touches only where "
-                                 "it goes deeper");
+        addSpheres(atRest,
+                   ignored ? "what `tss bake` stores by the scene's settings: the region that overlaps at "
+                             "rest never touches"
+                           : "what `tss bake` stores: the region that overlaps at rest touches only where "
+                             "it goes deeper");
     }
 
 private:
@@ -140,8 +142,8 @@ private:
         all.push_back({std::move(model), scope});
     }
 
-    /// What `tss bake` would be asked for. Where the scene asks for so many spheres at most, the tolerance that
-    /// these reach takes the place of that number.
+    /// What `tss bake` would be asked for. Where the scene asks for so many spheres at most, the tolerance
+    /// that these reach takes the place of that number.
     BakeOptions startOptions(const TriangleMesh& a, const TriangleMesh& b) {
         BakeOptions options = optionsFor(pair_.settings, {}, scene_.metersPerUnit);
         options.atRest = AtRest::Collide;
@@ -149,10 +151,11 @@ private:
         if (options.maxSpheres == 0) return options;
         tell("spheres, as many as the scene asks for");
         const BakePoint point = bakePoint(*makeModel(scene_, pair_, {"", options}), "");
-        study_.notes.push_back(fmt::format("The scene asks for at most {} spheres a body; these, {} + {}, stick "
-                                           "out by {} mm, the tolerance that this report starts from.",
-                                           options.maxSpheres, point.spheresA, point.spheresB,
-                                           number(point.protrusion * study_.millimetres)));
+        study_.notes.push_back(
+            fmt::format("The scene asks for at most {} spheres a body; these, {} + {}, stick "
+                        "out by {} mm, the tolerance that this report starts from.",
+                        options.maxSpheres, point.spheresA, point.spheresB,
+                        number(point.protrusion * study_.millimetres)));
         options.maxSpheres = 0;
         if (point.protrusion > 0) options.tolerance = point.protrusion;
         return options;

@@ -2,7 +2,6 @@
 #include "bake/base/Progress.h"
 #include "bake/table/Table.h"
 
-
 namespace tss {
 
 struct VerifyOptions {
