@@ -283,7 +283,23 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
                      const BakeOptions& options, const Progress& progress) {
     if (manyDofs(motion, options)) return fillToTestAll(scene, pair, motion, options, progress);
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    return fill(a, b, motion, options, toleranceOf(a, b, options), nullptr, progress);
+    const double first = toleranceOf(a, b, options);
+    for (double tolerance = first;; tolerance *= 2) {
+        try {
+            PairSpheres spheres = fill(a, b, motion, options, tolerance, nullptr, progress);
+            for (SphereFit* fit : {&spheres.a, &spheres.b})
+                if (tolerance > first)
+                    addNote(*fit,
+                            fmt::format("tolerance {:.4g} instead of {:.4g} scene units, which takes too "
+                                        "many spheres where the meshes overlap at rest",
+                                        tolerance, first));
+            return spheres;
+        } catch (const RestTooClose&) { // whatever the tolerance
+            throw;
+        } catch (const TooFine&) {
+            if (options.tolerance || options.depth > 0 || 2 * tolerance > smallerSize(a, b) / 30) throw;
+        }
+    }
 }
 
 PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,

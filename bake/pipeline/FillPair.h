@@ -36,7 +36,8 @@ double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motio
 /// The options for filling all of a body as a bake says, with this tolerance, scene units.
 SphereOptions sphereOptions(const BakeOptions& options, double tolerance);
 
-/// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call.
+/// Fills the two bodies of a pair as the options say (METHOD 1). The same spheres at every call. Where no
+/// tolerance is asked for and the usual one takes too many spheres, a coarser one is taken, and noted.
 PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& motion,
                      const BakeOptions& options, const Progress& progress = {});
 

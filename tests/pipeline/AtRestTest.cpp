@@ -3,7 +3,9 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/pipeline/Bake.h"
 #include "bake/pipeline/BakePair.h"
+#include "bake/pipeline/FillPair.h"
 #include "bake/search/NodePairs.h"
+#include "bake/spheres/Patches.h"
 #include "bake/table/Query.h"
 #include "tests/GroundTruth.h"
 #include "tests/pipeline/LumpyPair.h"
@@ -257,4 +259,22 @@ TEST_CASE("a ball in a socket that is a little too small turns freely") {
         for (const auto& q : randomPoses(motion, 300, 5)) stopped += query(*pair.table, q).hit();
         CHECK(stopped == 0);
     }
+}
+
+TEST_CASE("meshes that overlap over more surface than the usual tolerance can fill get a coarser one, not "
+          "one asked for") {
+    // A small block sunk into a long bar, along which it slides.
+    Motion motion;
+    motion.dofs = {joints::slide({1, 0, 0}, -0.4, 0.4)};
+    const SceneModel scene = sceneOf(boxMesh({-1, -0.1, -0.2}, {1, 0.1, 0}),
+                                     boxMesh({-0.2, -0.2, -0.05}, {0.2, 0.2, 0.3}), motion);
+    BakeOptions options;
+    const double usual = diagonal(scene.bodies[1].mesh) / 500;
+    options.mostPatches = 60'000;
+    const PairSpheres spheres = fillPair(scene, scene.pairs[0], motion, options);
+    CHECK(spheres.protrusions > 2 * usual);
+    CHECK(spheres.protrusions < 16 * usual);
+    CHECK(spheres.a.note.find("instead of") != std::string::npos);
+    options.tolerance = usual;
+    CHECK_THROWS_AS(fillPair(scene, scene.pairs[0], motion, options), TooFine);
 }
