@@ -33,7 +33,7 @@ struct GrowingRegion {
     MeshQuery queryOf(const Parts& set) const { return MeshQuery(meshOf(own.mesh(), set)); }
     /// Whether a set of parts is connected with the region on the surface.
     bool touches(const MeshQuery& set) const {
-        return region.distanceTo(set, Pose::Identity()) <= 1e-9 * own.solid().diagonal();
+        return !region.apart(set, Pose::Identity(), 1e-9 * own.solid().diagonal());
     }
 };
 
@@ -155,7 +155,7 @@ private:
             const MeshQuery query = side.queryOf(set);
             if (side.touches(query)) {
                 joining.insert(joining.end(), set.begin(), set.end());
-            } else if (other.own.surface().distanceTo(query, toOther, 2 * options_.reach) <= touching_) {
+            } else if (!other.own.surface().apart(query, toOther, touching_)) {
                 free = false;
                 return {};
             }
