@@ -90,16 +90,17 @@ bool ContactSurface::isInside(const Query& query, Centre& centre) const {
 void ContactSurface::visitPart(const Query& query, SurfacePart part, const Corners& corners, Centre* parent,
                                std::vector<SurfacePart>& found) const {
     if (query.poll.stopped() || query.known.holds(part)) return;
+    const auto visitHalves = [&](Centre* above) {
+        const std::array<SurfacePart, 2> parts = halves(part);
+        const std::array<Corners, 2> both = halves(corners);
+        for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], above, found);
+    };
+    // Some of it is known, so it has been near: how far away it is now mostly says to look at its halves.
+    if (part.cuts > 1 && query.known.reaches(part)) return visitHalves(parent);
     const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
     double radius = 0;
     for (const Vec3& corner : corners) radius = std::max(radius, (corner - middle).norm() * (1 + 1e-12));
     Centre centre{query.toOther * middle, radius + query.reach, parent};
-    const std::array<SurfacePart, 2> parts = halves(part);
-    const std::array<Corners, 2> both = halves(corners);
-    if (query.known.reaches(part) && part.cuts > 1) {
-        for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], parent, found);
-        return;
-    }
     const double distance = query.other.solid_.boundary().distance(centre.position, centre.distance);
     if (!std::isfinite(distance)) {
         if (isInside(query, centre)) found.push_back(part);
@@ -111,7 +112,7 @@ void ContactSurface::visitPart(const Query& query, SurfacePart part, const Corne
         found.push_back(part);
         return;
     }
-    for (int k = 0; k < 2; ++k) visitPart(query, parts[k], both[k], &centre, found);
+    visitHalves(&centre);
 }
 
 std::vector<std::vector<SurfacePart>> connected(const TriangleMesh& mesh,
