@@ -171,11 +171,27 @@ Found search(const SearchInput& problem, const Progress& progress) {
     return result;
 }
 
-double meanRadius(const SphereSet& a, const SphereSet& b) {
+/// A hundredth of the mean radius.
+double usualTolerance(const SphereSet& a, const SphereSet& b) {
     double sum = 0;
     for (const SphereSet* set : {&a, &b})
         for (const Sphere& s : *set) sum += s.radius;
-    return sum / double(a.size() + b.size());
+    return 0.01 * sum / double(a.size() + b.size());
+}
+
+/// Whether some pair touches, or gets within the margin, at one of a few hundred poses spread over Q.
+bool meetAtSamples(const SphereTree& a, const SphereTree& b, const Motion& motion, const ContactRule& rule,
+                   double margin) {
+    constexpr std::size_t samples = 512;
+    const std::vector<std::vector<double>> poses = exploredPoses(motion, samples, 1);
+    return std::ranges::any_of(poses, [&](const std::vector<double>& q) {
+        bool met = false;
+        visitPairsWithin(a, b, pose(motion, q), margin, [&](std::uint32_t i, std::uint32_t j, double gap) {
+            met = rule.touches({i, j}, gap - margin);
+            return !met;
+        });
+        return met;
+    });
 }
 
 /// The smallest gap at the explored poses, an upper bound of any clearance.
@@ -213,7 +229,7 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
     sampling.rule = rule;
     const Progress asked = [&](std::string_view, double) { return report(progress, "certified search", 0); };
     for (const SpherePair& pair : searchSampled(a, b, motion, sampling, asked).pairs) known.insert(pair);
-    const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : 0.01 * meanRadius(a, b),
+    const double tolerance = std::max(options.tolerance >= 0 ? options.tolerance : usualTolerance(a, b),
                                       1e-9 * (treeA[0].radius + treeB[0].radius));
     const std::uint64_t effort = effortOfPart(options.effort);
     const SearchInput problem{a,         b,     treeA, treeB, rates, rule, options.margin,
@@ -234,13 +250,19 @@ CandidatePairs searchCertified(const SphereSet& a, const SphereSet& b, const Mot
 
 bool neverCollide(const SphereSet& a, const SphereSet& b, const Motion& motion, const ContactRule& rule,
                   double margin, const Progress& progress) {
-    CertifiedSearchOptions options;
-    options.rule = rule;
-    options.margin = margin;
-    options.measureClearance = false;
-    options.effort = 5'000'000;
-    const CandidatePairs found = searchCertified(a, b, motion, options, progress);
-    return found.certified && found.pairs.empty();
+    const MotionRates rates(motion);
+    wholeBox(motion); // refuses chains that are too long
+    if (a.empty() || b.empty()) return true;
+    Poll poll(progress, "certified search");
+    const auto stop = [&] { return poll.stopped(); };
+    const SphereTree treeA(a, stop), treeB(b, stop);
+    if (poll.stopped() || meetAtSamples(treeA, treeB, motion, rule, margin)) return false;
+    const ConcurrentPairs none(a.size(), b.size());
+    constexpr std::uint64_t effort = 5'000'000;
+    const SearchInput problem{a,    b,      treeA, treeB, rates, rule, margin, usualTolerance(a, b),
+                              none, true, effortOfPart(effort)};
+    const Found found = search(problem, progress);
+    return found.complete && found.pairs.empty();
 }
 
 double provenClearance(const SphereSet& a, const SphereSet& b, const Motion& motion, std::uint64_t* cells,

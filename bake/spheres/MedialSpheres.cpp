@@ -3,6 +3,7 @@
 #include "bake/spheres/SphereMethods.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/spheres/RestNeighbour.h"
 
 #include <algorithm>
 #include <numeric>
@@ -131,11 +132,16 @@ std::vector<std::uint32_t> greedyCover(const CoverSets& sets, std::size_t patchC
     return chosen;
 }
 
+const RestNeighbour* binding(const MedialOptions& options, double protrusion) {
+    const RestNeighbour* neighbour = options.neighbour.get();
+    return neighbour && neighbour->binds(protrusion) ? neighbour : nullptr;
+}
+
 } // namespace
 
 MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                         const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, options.mostPatches, options.neighbour.get()};
+    const PatchOptions patchOptions{protrusion, options.mostPatches, binding(options, protrusion)};
     FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
     const CoverSets sets = coverSets(fitted.candidates, fitted.patches, progress);
     // Stopped there, all candidates are the cover that there is.
@@ -151,7 +157,7 @@ MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
 
 MedialSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                            const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, options.mostPatches, options.neighbour.get(), 1e-3, 1};
+    const PatchOptions patchOptions{protrusion, options.mostPatches, binding(options, protrusion), 1e-3, 1};
     FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
     return {std::move(fitted.candidates), std::move(fitted.inner)};
 }
