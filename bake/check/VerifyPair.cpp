@@ -16,7 +16,7 @@ namespace {
 /// The gap that the table states, against all spheres.
 void verifyGap(PairVerdict& verdict, const SceneModel& scene, const Pair& pair, const Motion& motion,
                const Progress& progress) {
-    const BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
+    const BakeOptions options = optionsFor(scene, pair);
     PairSpheres spheres;
     bool stopped = false;
     try {

@@ -36,7 +36,12 @@ public:
             const ContactZoneOptions& options, const HollowBodies& hollow, bool clearAtRest,
             const Progress& progress)
         : a_(a, hollow.a), b_(b, hollow.b), motion_(motion), options_(options), progress_(progress),
-          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {}
+          cells_(wholeQ(motion)), clearAtRest_(clearAtRest), whole_(options.whole) {
+        if (!whole_) return;
+        a_.kept = b_.kept = options.kept.get();
+        a_.path = options.pathA;
+        b_.path = options.pathB;
+    }
 
     /// The result is not to be used where entered() says that a body is hollow after all.
     ContactZoneFit run() {

@@ -2,6 +2,7 @@
 #include "bake/base/Progress.h"
 #include "bake/fill/NestedBodies.h"
 #include "bake/fill/RestPlan.h"
+#include "bake/fill/WholeFits.h"
 #include "bake/motion/Motion.h"
 #include "bake/spheres/GenerateSpheres.h"
 #include "bake/spheres/Patches.h"
@@ -28,6 +29,8 @@ struct ContactZoneOptions {
     std::optional<Nesting> nesting = {};
     double effort = 1; ///< share of the usual limit of work for finding what comes near, in (0, 1]
     MedialOptions medial;
+    std::shared_ptr<WholeFits> kept; ///< spheres of whole bodies; null: none are kept
+    std::string pathA, pathB;        ///< prim paths of the bodies, by which they are
 };
 
 /// One body's share.

@@ -26,6 +26,9 @@ struct FittedBody {
     };
     Spheres spheres;
 
+    WholeFits* kept = nullptr; ///< where spheres of all of the body are kept, or null
+    std::string path;          ///< prim path of the body, by which they are
+
     void begin(RestSide side) {
         rest = std::move(side);
         spheres.protrusion = rest.protrusion;
@@ -34,8 +37,14 @@ struct FittedBody {
     }
     void fit(double tolerance, MedialOptions medial, const Progress& progress) {
         const double own = protrusionFor(tolerance, magnitude);
-        medial.neighbour = rest.neighbour;
-        spheres.fitted = medialSpheres(solid, zone, own, medial, progress);
+        const bool alone = zone.size() == rest.patches.size() &&
+                           !(rest.neighbour && rest.neighbour->binds(own)); // the same beside any other body
+        if (kept && alone) {
+            spheres.fitted = kept->spheres(path, solid, own, medial, progress);
+        } else {
+            medial.neighbour = rest.neighbour;
+            spheres.fitted = medialSpheres(solid, zone, own, medial, progress);
+        }
         spheres.protrusion = std::max(own, rest.protrusion);
     }
     std::size_t count() const { return spheres.fitted.spheres.size() + rest.region.spheres.size(); }

@@ -14,10 +14,6 @@ namespace tss {
 
 namespace {
 
-/// The search gives up after so many probes. A probe is a distance query of a vertex, a tenth of a
-/// microsecond where most vertices are far from the surface, or a look at two triangles.
-constexpr std::uint64_t mostProbes = 30'000'000;
-
 /// A bound of the distance from the surface of points inside a solid, scene units: half of the shortest side
 /// of its bounding box; infinity where it has openings.
 double deepestIn(const Solid& solid) {
@@ -34,8 +30,8 @@ struct Answers {
 /// Branch and bound over Q, breadth first, so that a pose with a part inside is found early.
 class NestingSearch {
 public:
-    NestingSearch(const NestingExaminer& examiner, const Progress& progress)
-        : examiner_(examiner), progress_(progress), cells_{examiner.whole()} {}
+    NestingSearch(const NestingExaminer& examiner, const NestingEffort& effort, const Progress& progress)
+        : examiner_(examiner), effort_(effort), progress_(progress), cells_{examiner.whole()} {}
 
     Answers run() {
         while (!cells_.empty() && examineAll())
@@ -48,8 +44,8 @@ public:
 private:
     /// Whether the effort will not suffice for a question. Asked from a thirtieth of it on.
     bool willNotEnd(std::uint32_t question) {
-        const double most = 1.5 * (double(mostProbes) - double(probes_)); // the estimate is a rough one
-        return !over_[question] && 30 * probes_ > mostProbes && expectedProbes(question, most) > most;
+        const double most = 1.5 * (double(effort_.probes) - double(probes_)); // the estimate is a rough one
+        return !over_[question] && 30 * probes_ > effort_.probes && expectedProbes(question, most) > most;
     }
 
     /// About how many probes the cells that are open take for a question, from random descents through their
@@ -100,8 +96,8 @@ private:
                 }
                 std::ranges::move(result.halves, std::back_inserter(halves));
             }
-            interrupted_ = !report(progress_, "nested bodies", double(probes_) / double(mostProbes));
-            if (!interrupted_ && probes_ <= mostProbes) continue;
+            interrupted_ = !report(progress_, "nested bodies", double(probes_) / double(effort_.probes));
+            if (!interrupted_ && probes_ <= effort_.probes) continue;
             cells_.erase(cells_.begin(), cells_.begin() + std::ptrdiff_t(first + results.size()));
             std::ranges::move(halves, std::back_inserter(cells_));
             return false;
@@ -121,7 +117,7 @@ private:
                 if (part.question == question) left.emplace_back(&cell, part);
         if (left.empty()) return;
         answers_.undecided[question] = true;
-        if (interrupted_) return; // no time is left even for that
+        if (interrupted_ || !effort_.walks) return;
         std::array<char, starts> inside{};
         parallelFor(starts, [&](std::size_t k) {
             const auto& [cell, part] = left[k * left.size() / starts];
@@ -131,6 +127,7 @@ private:
     }
 
     const NestingExaminer& examiner_;
+    const NestingEffort& effort_;
     const Progress& progress_;
     std::vector<NestingCell> cells_;
     Answers answers_;
@@ -142,10 +139,10 @@ private:
 } // namespace
 
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
-                   const Progress& progress) {
+                   const Progress& progress, const NestingEffort& effort) {
     const MotionRates rates(motion);
     const NestingExaminer examiner(a, b, rates, reach);
-    const auto [found, undecided] = NestingSearch(examiner, progress).run();
+    const auto [found, undecided] = NestingSearch(examiner, effort, progress).run();
     return {{found[0], found[1]},
             {undecided[0] && !found[0], undecided[1] && !found[1]},
             settledShare * reach,

@@ -93,7 +93,7 @@ double squaredDistanceOfBoxes(const Bvh::Node& node, const Vec3& middle, const V
 } // namespace
 
 double MeshQuery::squaredDistanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
-                                    double best2, bool stopAtFirst, std::uint64_t& looks) const {
+                                    double best2, const DistanceLimits& limits, std::uint64_t& looks) const {
     if (bvh_.empty() || other.bvh_.empty()) return best2;
     const Eigen::Matrix3d turn = otherToThis.linear(), size = turn.cwiseAbs();
     const Vec3 shift = otherToThis * other.origin_ - origin_;
@@ -112,7 +112,8 @@ double MeshQuery::squaredDistanceTo(const MeshQuery& other, const Eigen::Isometr
     while (!stack.empty()) {
         const NodePair both = stack.back();
         stack.pop_back();
-        if (!(both.bound2 < best2)) continue;
+        if (!(both.bound2 < limits.share2 * best2)) continue;
+        if (looks > limits.most) return 0;
         const Bvh::Node &a = bvh_.nodes[both.here], &b = other.bvh_.nodes[both.there];
         if (a.count > 0 && b.count > 0) {
             moved.clear();
@@ -124,9 +125,10 @@ double MeshQuery::squaredDistanceTo(const MeshQuery& other, const Eigen::Isometr
             for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
                 const Corners& s = corners_[bvh_.items[i]];
                 for (const Corners& t : moved)
-                    if (!surelyBeyond(s, t, best2)) best2 = std::min(best2, squaredDistanceOfTriangles(s, t));
+                    if (!surelyBeyond(s, t, limits.share2 * best2))
+                        best2 = std::min(best2, squaredDistanceOfTriangles(s, t));
             }
-            if (best2 == 0 || (stopAtFirst && best2 < asked2)) return best2;
+            if (best2 == 0 || (limits.stopAtFirst && best2 < asked2)) return best2;
             continue;
         }
         ++looks;
@@ -149,15 +151,21 @@ double MeshQuery::squaredDistanceTo(const MeshQuery& other, const Eigen::Isometr
 double MeshQuery::distanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis,
                              double within) const {
     std::uint64_t looks = 0;
-    const double best2 = squaredDistanceTo(other, otherToThis, within * within, false, looks);
+    const double best2 = squaredDistanceTo(other, otherToThis, within * within, {}, looks);
     return best2 < within * within ? std::sqrt(best2) : infinity;
 }
 
+double MeshQuery::roughDistanceTo(const MeshQuery& other, const Eigen::Isometry3d& otherToThis) const {
+    constexpr double share = 0.95;
+    std::uint64_t looks = 0;
+    return std::sqrt(squaredDistanceTo(other, otherToThis, infinity, {.share2 = share * share}, looks));
+}
+
 bool MeshQuery::apart(const MeshQuery& other, const Eigen::Isometry3d& otherToThis, double distance,
-                      std::uint64_t* looks) const {
+                      std::uint64_t* looks, std::uint64_t most) const {
     const double distance2 = distance * distance;
     std::uint64_t seen = 0;
-    const double best2 = squaredDistanceTo(other, otherToThis, distance2, true, seen);
+    const double best2 = squaredDistanceTo(other, otherToThis, distance2, {true, most}, seen);
     if (looks) *looks += seen;
     return !(best2 < distance2);
 }

@@ -68,7 +68,8 @@ PairReport timed(Item& item, const Work& work) {
 class Baker {
 public:
     Baker(SceneModel& scene, const BakeRequest& request, const Progress& progress)
-        : scene_(scene), request_(request), progress_([&](std::string_view step, double done) {
+        : scene_(scene), request_(request), outer_(progress),
+          progress_([&](std::string_view step, double done) {
               late_ = late_ || turn_.over();
               return !late_ && !interrupted() && report(progress, step, done);
           }) {}
@@ -130,7 +131,8 @@ private:
     }
 
     void bakeOne(Pair& pair, PairReport& report) {
-        BakeOptions options = optionsFor(pair.settings, {}, scene_.metersPerUnit);
+        BakeOptions options = optionsFor(scene_, pair);
+        options.kept = kept_;
         options.effort = request_.effort;
         options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
         options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
@@ -170,11 +172,16 @@ private:
 
     SceneModel& scene_;
     const BakeRequest& request_;
+    const Progress& outer_; ///< of the caller
     bool over_ = false;
     Deadline turn_;      ///< by which the one in work is to be done
     bool brief_ = false; ///< it has a longer turn where that is not enough
     bool late_ = false;  ///< it was not, and was told to stop
     const Progress progress_;
+    const std::shared_ptr<WholeFits> kept_ =
+        std::make_shared<WholeFits>([this](std::string_view step, double done) {
+            return !request_.until.over() && !interrupted() && report(outer_, step, done);
+        });
     std::vector<std::string> paths_; ///< of what is baked
     std::vector<PairReport> reports_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/base/Stopwatch.h"
+#include "bake/fill/WholeFits.h"
 #include "bake/model/SceneModel.h"
 #include "bake/search/AtRest.h"
 #include "bake/spheres/SphereOptions.h"
@@ -38,6 +39,7 @@ struct BakeOptions {
     /// The pair or skin is to be done by then; its search for the few tests ends halfway there.
     Deadline until;
     double effort = 1; ///< share of the usual limit of work for finding the contact zone, in (0, 1]
+    std::shared_ptr<WholeFits> kept = std::make_shared<WholeFits>(); ///< of one scene; shared by copies
     /// The most pairs of spheres that a table may test where no cover of them is found. A query looks at few
     /// of them, in clusters, but each takes some 150 bytes in memory.
     std::size_t mostTests = 1'000'000;
@@ -67,6 +69,10 @@ std::string methodName(const BakeOptions& options);
 
 /// The options of one pair: the defaults, then the scene's own settings, then those given now.
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);
+
+/// The options of a pair of the scene, which has many: each may test a share of twenty million pairs of
+/// spheres, so that all tables together fit in memory.
+BakeOptions optionsFor(const SceneModel& scene, const Pair& pair);
 
 /// "0.2mm", "1cm", "2e-3m", "0.01in" or a plain number in scene units. Throws InputError.
 double parseLength(const std::string& text, double metersPerUnit);

@@ -125,27 +125,31 @@ struct PairBaker {
         return attempt;
     }
 
-    /// The proof that the surfaces never meet, where it is found without any spheres.
-    std::optional<PairTable> surfacesNeverMeet() const {
+    /// The proof that the surfaces never meet, where it is found without any spheres. nearest: becomes the
+    /// least distance seen, scene units.
+    std::optional<PairTable> surfacesNeverMeet(double& nearest) const {
         if (options.spheres != SphereMethod::Medial || options.search != SearchMethod::Certified)
             return std::nullopt;
         const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
         const auto apart =
-            surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), progress);
+            surfacesApart(cleaned(a), cleaned(b), motion, touchingDistance(a, b, motion), progress, &nearest);
         if (!apart) return std::nullopt;
         return PairTable{nullptr, std::make_shared<NeverCollides>(NeverCollides{
                                       apart->clearance, apart->cells, "surfaces/certified", {}, {}})};
     }
 
-    /// Where a table would have to test all pairs of spheres: the proof that coarser spheres never meet,
-    /// where it is found quickly.
-    std::optional<Attempt> apart() const {
-        if (!manyDofs(motion, options) || options.depth > 0) return std::nullopt;
-        for (const double tolerance : coarserTolerances(scene, pair, options)) {
+    /// Where a table would have to test all pairs of spheres: the proof that spheres no finer than asked for
+    /// never meet, where it is found quickly. nearest: the least distance of the surfaces seen, scene units:
+    /// spheres about them come as near.
+    std::optional<Attempt> apart(double nearest) const {
+        constexpr double most = 1e6; // pairs of spheres
+        if (!manyDofs(motion, options) || options.depth > 0 || !(nearest > 0)) return std::nullopt;
+        for (const double tolerance : coarserTolerances(scene, pair, options, nearest)) {
+            if (tolerance > nearest) break; // spheres that are as fine as asked for meet
             BakeOptions coarse = options;
             coarse.tolerance = tolerance;
             PairSpheres spheres = fillSolid(scene, pair, motion, coarse, tolerance, progress);
-            if (!spheres.testAll) break; // finer ones are more
+            if (double(spheres.a.spheres.size()) * double(spheres.b.spheres.size()) > most) break;
             const PairTask task = pairTask(spheres, motion, coarse);
             if (!neverCollide(spheres.a.spheres, spheres.b.spheres, motion, task.ruled.rule, task.margin,
                               progress))
@@ -214,10 +218,11 @@ void bakePair(SceneModel& scene, Pair& pair, const BakeOptions& options, PairRep
     const Motion once = onceRound(motion);
     const PairBaker baker{scene, pair, options, once, progress};
     PairTable made;
-    if (std::optional<PairTable> never = baker.surfacesNeverMeet()) {
+    double nearest = infinity; // of the surfaces, as far as was seen
+    if (std::optional<PairTable> never = baker.surfacesNeverMeet(nearest)) {
         made = std::move(*never);
     } else {
-        std::optional<Attempt> apart = baker.apart();
+        std::optional<Attempt> apart = baker.apart(nearest);
         Attempt attempt = apart ? std::move(*apart) : baker.few();
         if (std::optional<Attempt> all = baker.allInstead(attempt)) attempt = std::move(*all);
         made = std::move(attempt.made);

@@ -98,6 +98,9 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.margin = margin;
     zone.whole = known != nullptr;
     if (known) zone.nesting = *known;
+    zone.kept = options.kept;
+    zone.pathA = a.path;
+    zone.pathB = b.path;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
@@ -114,8 +117,9 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
 }
 
 Nesting nestingOf(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                  const Progress& progress) {
-    return findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress);
+                  const Progress& progress, const NestingEffort& effort = {}) {
+    return findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress,
+                      effort);
 }
 
 /// Spheres of the other methods, which fill all of the bodies.
@@ -192,18 +196,18 @@ struct Level {
     }
 };
 
-/// The finest spheres, no finer than the tolerance `least`, of which all pairs can be tested, found from the
-/// tolerance `first` on. Where there are none, the coarsest tried: coarser ones are hardly fewer where most
-/// stand for what overlaps or is near at rest.
+/// The finest spheres, no finer than the tolerance `least`, of which all pairs can be tested, to a step,
+/// found from the tolerance `first` on. Where there are none, the coarsest tried: coarser ones are hardly
+/// fewer where most stand for what overlaps or is near at rest.
 Level finestToTestAll(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                       double least, double first, const Nesting& known, const Progress& progress) {
     constexpr int mostFills = 8;
-    constexpr double enough = 0.85, aim = 0.95; // shares of the pairs that can be tested
+    constexpr double enough = 0.35, aim = 0.6; // shares of the pairs that can be tested
     const double coarsest = std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 4; // tolerance of any use
     const auto filled = [&](double tolerance) {
         return Level{tolerance, fill(a, b, motion, options, tolerance, &known, progress)};
     };
-    Level last = filled(first);
+    Level last = filled(std::max(toleranceNextTo(first), least));
     std::optional<Level> good;
     double tooFine = 0; // the coarsest tolerance seen that takes too many pairs
     double power = 3;   // the number of pairs falls with about this power of the tolerance
@@ -214,15 +218,17 @@ Level finestToTestAll(const Body& a, const Body& b, const Motion& motion, const 
             good = std::move(last);
         else
             tooFine = tolerance;
-        const bool close = good && (good->tolerance <= least || good->tolerance < 1.05 * tooFine);
+        const bool close =
+            good && (good->tolerance <= least || good->tolerance < 1.1 * toleranceStep * tooFine);
         if (fills == mostFills || close || (share > enough && share <= 1)) break;
         double next = tolerance * std::pow(share / aim, 1 / power);
-        if (!good) next = std::max(next, 1.05 * tooFine);
+        if (!good) next = std::max(next, toleranceStep * tooFine);
         if (good && next <= tooFine) next = std::sqrt(good->tolerance * tooFine);
         if (tolerance >= coarsest && next > tolerance) break;
         if (tolerance < coarsest) next = std::min(next, coarsest);
-        last = filled(std::max(next, least));
-        if (last.tolerance == tolerance) continue;
+        next = std::max(toleranceNextTo(next), least);
+        if (next == tolerance || (good && next == good->tolerance)) break;
+        last = filled(next);
         const double fewer = std::log(pairs / last.pairs()) / std::log(last.tolerance / tolerance);
         if (!good && last.tolerance > tolerance && fewer < 1 && !canTestAll(last.spheres, options)) break;
         power = std::clamp(fewer, 2.0, 4.0);
@@ -250,6 +256,10 @@ double clearanceAtRest(const TriangleMesh& a, const TriangleMesh& b, const Motio
     const std::vector<double> rest = restValues(motion);
     const double distance = MeshQuery(a).distanceTo(MeshQuery(b), pose(motion, rest));
     return distance > touchingDistance(a, b, motion) ? distance : 0;
+}
+
+double toleranceNextTo(double tolerance) {
+    return std::exp2(std::round(2 * std::log2(tolerance)) / 2);
 }
 
 SphereOptions sphereOptions(const BakeOptions& options, double tolerance) {
@@ -309,12 +319,14 @@ PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& 
                   motion, options);
 }
 
-std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options) {
+std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options,
+                                      double nearest) {
+    constexpr double coarsest = 8, finest = 120; // shares of the smaller body
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-    const double size = smallerSize(a, b);
+    const double size = smallerSize(a, b), least = std::max(toleranceOf(a, b, options), size / finest);
     std::vector<double> coarser;
-    for (const double share : {30, 60, 120})
-        if (size / share > toleranceOf(a, b, options)) coarser.push_back(size / share);
+    for (double share = 1; share > 0.1 && (coarser.empty() || coarser.back() > least); share /= 2)
+        coarser.push_back(std::max(toleranceNextTo(share * std::min(nearest / 4, size / coarsest)), least));
     return coarser;
 }
 
@@ -323,7 +335,7 @@ PairSpheres fillSolid(const SceneModel& scene, const Pair& pair, const Motion& m
     const Nesting none;
     PairSpheres spheres =
         fill(scene.bodies[pair.bodyA], scene.bodies[pair.bodyB], motion, options, tolerance, &none, progress);
-    spheres.testAll = canTestAll(spheres, options);
+    spheres.testAll = true;
     return spheres;
 }
 
@@ -335,11 +347,12 @@ PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motio
         const Nesting nesting = nestingOf(a, b, motion, asked, progress);
         return fill(a, b, motion, options, asked, &nesting, progress);
     }
-    const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 60);
+    const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 20);
     Level finest = finestToTestAll(a, b, motion, options, asked, first, {}, progress);
-    Nesting nesting = nestingOf(a, b, motion, finest.tolerance, progress); // holds for coarser ones too
-    // Where that could not be decided, the body is taken for hollow: spheres on its surface serve either
-    // case.
+    // Holds for coarser ones too. Where that could not be decided, the body is taken for hollow: spheres on
+    // its surface serve either case, so that walks would decide nothing.
+    Nesting nesting =
+        nestingOf(a, b, motion, finest.tolerance, progress, {.probes = 10'000'000, .walks = false});
     nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
     nesting.undecided = {};
     if (nesting.outer) // hollow bodies take more spheres

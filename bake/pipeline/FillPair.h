@@ -54,9 +54,15 @@ constexpr std::size_t mostCoverDofs = 6;
 /// of time (a budget of 0) more of them count as few.
 bool manyDofs(const Motion& motion, const BakeOptions& options);
 
-/// Tolerances coarser than the options ask for, the coarsest first, scene units: to try whether few spheres
-/// show quickly that two bodies never meet.
-std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options);
+/// Where many pairs share their bodies those of one body ask for the same spheres of it (WholeFits):
+/// tolerances are powers of two and of its square root, scene units. The one next to this one.
+double toleranceNextTo(double tolerance);
+constexpr double toleranceStep = 1.4142135623730951; ///< from one to the next
+
+/// Tolerances no finer than the options ask for, the coarsest first, scene units: to try whether few spheres
+/// show quickly that two bodies never meet whose surfaces come as near as that, scene units.
+std::vector<double> coarserTolerances(const SceneModel& scene, const Pair& pair, const BakeOptions& options,
+                                      double nearest);
 
 /// Fills all of both bodies as solids to a tolerance, scene units, whether or not the other body can stand
 /// inside: where such spheres stay apart, so do the surfaces.

@@ -2,6 +2,7 @@
 
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
+#include "bake/pipeline/FillPair.h"
 #include "bake/search/RestContact.h"
 
 #include <algorithm>
@@ -72,7 +73,8 @@ void setFirstTolerances(SceneModel& scene, const std::vector<double>& distancesA
     const double millimetres = 1000 * scene.metersPerUnit;
     for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
         Pair& pair = scene.pairs[k];
-        const double tolerance = millimetres * firstTolerance(scene, pair, distancesAtRest[k]);
+        const double first = firstTolerance(scene, pair, distancesAtRest[k]),
+                     tolerance = millimetres * (isLongChain(scene, pair) ? toleranceNextTo(first) : first);
         if (tolerance > 0 && std::isfinite(tolerance))
             pair.settings["tolerance"] = fmt::format("{:.2g}mm", tolerance);
     }

@@ -17,10 +17,10 @@ std::vector<double> distancesAtRest(const SceneModel& scene);
 double usualTolerance(const SceneModel& scene);
 
 /// Where some pair is a long chain: gives each pair the tolerance of a first look, a length with its unit, as
-/// its setting. A thirtieth of the diagonal of its smaller body. A hundredth where the two touch or overlap
-/// at rest, for what is near that is exempt; and of pairs that are no long chains no more than three tenths
-/// of their distance at rest, so that the spheres of both leave their joint some of it. None is finer than
-/// what a bake takes by itself, a 500th.
+/// its setting. About a thirtieth of the diagonal of its smaller body (toleranceNextTo()). A hundredth where
+/// the two touch or overlap at rest, for what is near that is exempt; and of pairs that are no long chains no
+/// more than three tenths of their distance at rest, so that the spheres of both leave their joint some of
+/// it. None is finer than what a bake takes by itself, a 500th.
 void setFirstTolerances(SceneModel& scene, const std::vector<double>& distancesAtRest);
 
 /// The budget, seconds per pair, with which baking all pairs of a scene takes some minutes.

@@ -119,7 +119,7 @@ public:
                 "our spheres, the smallest set that answers alike at the poses explored (the paper's M_ss)");
         }
         const compare::ComparedPair& problem = base->problem;
-        const AtRest asked = optionsFor(pair_.settings, {}, scene_.metersPerUnit).atRest;
+        const AtRest asked = optionsFor(scene_, pair_).atRest;
         if (asked == AtRest::Collide ||
             ruleOfSpheres(problem.a, problem.b, problem.motion, AtRest::Ignore).empty())
             return;
@@ -145,7 +145,7 @@ private:
     /// What `tss bake` would be asked for. Where the scene asks for so many spheres at most, the tolerance
     /// that these reach takes the place of that number.
     BakeOptions startOptions(const TriangleMesh& a, const TriangleMesh& b) {
-        BakeOptions options = optionsFor(pair_.settings, {}, scene_.metersPerUnit);
+        BakeOptions options = optionsFor(scene_, pair_);
         options.atRest = AtRest::Collide;
         if (!options.tolerance) options.tolerance = std::min(diagonal(a), diagonal(b)) / 500;
         if (options.maxSpheres == 0) return options;

@@ -259,8 +259,8 @@ bool neverCollide(const SphereSet& a, const SphereSet& b, const Motion& motion, 
     if (poll.stopped() || meetAtSamples(treeA, treeB, motion, rule, margin)) return false;
     const ConcurrentPairs none(a.size(), b.size());
     constexpr std::uint64_t effort = 5'000'000;
-    const SearchInput problem{a,    b,      treeA, treeB, rates, rule, margin, usualTolerance(a, b),
-                              none, true, effortOfPart(effort)};
+    const SearchInput problem{
+        a, b, treeA, treeB, rates, rule, margin, usualTolerance(a, b), none, true, effortOfPart(effort)};
     const Found found = search(problem, progress);
     return found.complete && found.pairs.empty();
 }

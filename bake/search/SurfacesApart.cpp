@@ -13,14 +13,19 @@ namespace tss {
 
 namespace {
 
-/// Cells judged by how far points move take one distance of two meshes each. They are tried for 7/8 of the
-/// least distance where at most `fewExpected` of them are expected, and for half of it up to `mostExpected`;
-/// the search gives up after `slack` times as many.
-constexpr double fewExpected = 1'000, mostExpected = 10'000, slack = 4;
-/// Else, up to so many DOFs, separating axes of triangles are tried: with at most so many looks at pairs of
-/// nodes or triangles, some tenths of a microsecond each, in all and in one cell.
+/// After what a search, or the judging of one cell, is given up. Looks are at pairs of nodes or triangles,
+/// some tenths of a microsecond each.
+struct Effort {
+    std::uint64_t looks, looksPerCell, cells;
+};
+/// Cells judged by how far points move are tried for 7/8 of the least distance where at most `fewExpected` of
+/// them are expected, and for half of it up to `mostExpected`. One that takes long is quicker decided in
+/// halves.
+constexpr double fewExpected = 1'000, mostExpected = 10'000;
+constexpr Effort byMotion{20'000'000, 20'000, 40'000};
+/// Else, up to so many DOFs, separating axes of triangles are tried.
 constexpr std::size_t fewDofs = 2;
-constexpr std::uint64_t mostLooks = 40'000'000, looksPerCell = 1'000'000;
+constexpr Effort byAxes{40'000'000, 1'000'000, UINT64_MAX};
 constexpr std::size_t samples = 128;
 constexpr std::size_t batch = 64; // of fixed size, so that the outcome does not depend on threads
 
@@ -42,12 +47,15 @@ public:
         if (a_.bvh().empty() || b_.bvh().empty() || !apartAtSamples()) return std::nullopt;
         for (const auto& [share, most] : {std::pair(0.875, fewExpected), std::pair(0.5, mostExpected)})
             if (expectedCells(share * least_) < most) return shownFor(share);
+        effort_ = byAxes;
         bySeparatingAxes_ = true;
         if (motion_.dofCount() <= fewDofs && alongAxis_ < 0.5 * least_)
             if (const auto shown = shownFor(0.5)) return shown;
         if (alongAxis_ > touching_) return SurfacesApart{alongAxis_, std::max<std::uint64_t>(cells_, 1)};
         return std::nullopt;
     }
+
+    double nearest() const { return least_; }
 
 private:
     double distanceAt(std::span<const double> q, double within) const {
@@ -62,7 +70,7 @@ private:
         for (std::size_t first = 0; first < poses.size(); first += batch) {
             const std::size_t end = std::min(first + batch, poses.size());
             parallelFor(end - first, [&](std::size_t k) {
-                distances_[first + k] = distanceAt(poses[first + k], std::numeric_limits<double>::infinity());
+                distances_[first + k] = a_.roughDistanceTo(b_, pose(motion_, poses[first + k]));
             });
             for (std::size_t k = first; k < end; ++k) least_ = std::min(least_, distances_[k]);
             if (least_ <= touching_ || !report(progress_, "surfaces apart", 0)) return false;
@@ -88,13 +96,13 @@ private:
 
     /// The share of the granted work that is done; from 1 on the search gives up.
     double spent() const {
-        return bySeparatingAxes_ ? double(looked_) / double(mostLooks)
-                                 : double(cells_) / (slack * mostExpected);
+        return std::max(double(looked_) / double(effort_.looks), double(cells_) / double(effort_.cells));
     }
 
     /// The proof of a clearance of this share of the least distance found.
     std::optional<SurfacesApart> shownFor(double share) {
         clearance_ = share * least_;
+        looked_ = 0;
         std::vector<Cell> cells{wholeBox(motion_)};
         while (!cells.empty()) {
             if (spent() >= 1 || !report(progress_, "surfaces apart", spent())) return std::nullopt;
@@ -118,9 +126,11 @@ private:
     bool isApart(const CellMotion& motion, std::uint64_t& looked) const {
         const double move = motion.pointMotion(motion.centrePose() * b_.centre()).move +
                             motion.relativeMove() * b_.radius() + rounding_;
-        return a_.apart(b_, motion.centrePose(), clearance_ + move) ||
+        // Where points move little, halves would take as long.
+        const std::uint64_t most = 4 * move > clearance_ ? effort_.looksPerCell : effort_.looks;
+        return a_.apart(b_, motion.centrePose(), clearance_ + move, &looked, most) ||
                (bySeparatingAxes_ &&
-                trianglesApart(a_, b_, motion, clearance_, rounding_, looksPerCell, looked));
+                trianglesApart(a_, b_, motion, clearance_, rounding_, effort_.looksPerCell, looked));
     }
 
     CellResult examine(Cell cell) const {
@@ -149,6 +159,7 @@ private:
     std::vector<double> distances_;                          ///< at the sampled poses
     double least_ = std::numeric_limits<double>::infinity(); ///< distance that was found
     double clearance_ = 0;                                   ///< to be shown
+    Effort effort_ = byMotion;
     bool bySeparatingAxes_ = false;
     std::uint64_t cells_ = 0, looked_ = 0;
 };
@@ -156,8 +167,11 @@ private:
 } // namespace
 
 std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                           double touching, const Progress& progress) {
-    return Search(a, b, motion, touching, progress).run();
+                                           double touching, const Progress& progress, double* nearest) {
+    Search search(a, b, motion, touching, progress);
+    const std::optional<SurfacesApart> apart = search.run();
+    if (nearest) *nearest = search.nearest();
+    return apart;
 }
 
 } // namespace tss

@@ -22,8 +22,10 @@ struct SurfacesApart {
 /// a turn (apartAlongAxis()). Nothing where they come nearer to each other than `touching`, scene units (see
 /// touchingDistance()), and where it would take too long: for most pairs spheres are quicker, for parts that
 /// stand close all over the motion they would have to be very small. The same for any number of threads.
+/// nearest: where given, becomes the least distance that was seen at any pose.
 std::optional<SurfacesApart> surfacesApart(const TriangleMesh& a, const TriangleMesh& b, const Motion& motion,
-                                           double touching, const Progress& progress = {});
+                                           double touching, const Progress& progress = {},
+                                           double* nearest = nullptr);
 
 /// How far apart the two stay along the axis of one of their turns at least, at every pose of Q, scene units;
 /// 0 or less: they may overlap along it. The links of a flat linkage turn about parallel axes and never leave

@@ -29,10 +29,7 @@ struct CoverSets {
 CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> patches,
                     const Progress& progress) {
     constexpr int enough = 24;
-    std::vector<Eigen::AlignedBox3d> centres;
-    centres.reserve(patches.size());
-    for (const Patch& patch : patches) centres.emplace_back(patch.centre());
-    const Bvh tree = buildBvh(centres, 8);
+    const Bvh tree = treeOfCentres(patches);
     std::vector<std::uint32_t> order(candidates.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),
@@ -50,7 +47,7 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
         if (!report(progress, "spheres that cover", double(at) / double(order.size()))) return {};
         batch.clear();
         for (; at < order.size() && batch.size() < block; ++at)
-            if (counts[order[at]] < enough) batch.push_back(order[at]);
+            if (counts[order[at]] < enough && candidates[order[at]].radius > 0) batch.push_back(order[at]);
         parallelFor(batch.size(), [&](std::size_t i) {
             const Sphere& sphere = candidates[batch[i]];
             found[i].clear();
@@ -139,13 +136,10 @@ const RestNeighbour* binding(const MedialOptions& options, double protrusion) {
 
 } // namespace
 
-MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
-                        const MedialOptions& options, const Progress& progress) {
-    const PatchOptions patchOptions{protrusion, options.mostPatches, binding(options, protrusion)};
-    FittedPatches fitted = fitPatches(solid, patches, patchOptions, progress);
+MedialSet chooseSpheres(const FittedPatches& fitted, const Progress& progress) {
     const CoverSets sets = coverSets(fitted.candidates, fitted.patches, progress);
     // Stopped there, all candidates are the cover that there is.
-    if (sets.spheres.empty()) return {std::move(fitted.candidates), std::move(fitted.inner)};
+    if (sets.spheres.empty()) return {fitted.candidates, fitted.inner};
     MedialSet set;
     for (const std::uint32_t i : greedyCover(sets, fitted.patches.size())) {
         set.spheres.push_back(fitted.candidates[i]);
@@ -153,6 +147,12 @@ MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, doub
     }
     report(progress, "spheres that cover", 1);
     return set;
+}
+
+MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
+                        const MedialOptions& options, const Progress& progress) {
+    const PatchOptions patchOptions{protrusion, options.mostPatches, binding(options, protrusion)};
+    return chooseSpheres(fitPatches(solid, patches, patchOptions, progress), progress);
 }
 
 MedialSet shrinkingSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,

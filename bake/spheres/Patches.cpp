@@ -1,5 +1,6 @@
 #include "bake/spheres/Patches.h"
 
+#include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/geometry/MeshAudit.h"
@@ -13,6 +14,7 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <utility>
 
 namespace tss {
 
@@ -50,6 +52,13 @@ std::vector<Patch> patchesOf(const TriangleMesh& mesh) {
         patches.push_back({{a, b, c}, normalOf(a, b, c)});
     }
     return patches;
+}
+
+Bvh treeOfCentres(std::span<const Patch> patches) {
+    std::vector<Eigen::AlignedBox3d> centres;
+    centres.reserve(patches.size());
+    for (const Patch& patch : patches) centres.emplace_back(patch.centre());
+    return buildBvh(centres, 8);
 }
 
 bool covers(const Sphere& sphere, const Patch& patch) {
@@ -224,27 +233,73 @@ private:
 
 } // namespace
 
-FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
-                         const Progress& progress) {
+namespace {
+
+void append(FittedPatches& all, const FittedPatches& more) {
+    all.patches.insert(all.patches.end(), more.patches.begin(), more.patches.end());
+    all.candidates.insert(all.candidates.end(), more.candidates.begin(), more.candidates.end());
+    all.inner.insert(all.inner.end(), more.inner.begin(), more.inner.end());
+}
+
+/// Fits those of the patches whose numbers are given.
+FittedPatches fitSome(PatchLimit& limit, std::span<const Patch> patches,
+                      std::span<const std::uint32_t> numbers) {
     constexpr std::size_t block = 64;
-    const std::size_t blocks = (patches.size() + block - 1) / block;
+    const std::size_t blocks = (numbers.size() + block - 1) / block;
     std::vector<FittedPatches> parts(blocks);
-    PatchLimit limit(solid, patches, options, progress);
     parallelFor(blocks, [&](std::size_t b) {
         Splitter splitter(limit);
-        for (std::size_t i = b * block; i < std::min(patches.size(), (b + 1) * block); ++i)
-            splitter.add(patches[i], 0);
+        for (std::size_t i = b * block; i < std::min(numbers.size(), (b + 1) * block); ++i)
+            splitter.add(patches[numbers[i]], 0);
         parts[b] = std::move(splitter.result);
     });
-    report(progress, "patches", 1);
     FittedPatches all;
-    for (FittedPatches& part : parts) {
-        all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
-        all.candidates.insert(all.candidates.end(), part.candidates.begin(), part.candidates.end());
-        all.inner.insert(all.inner.end(), part.inner.begin(), part.inner.end());
-        part = {};
-    }
+    for (FittedPatches& part : parts) append(all, std::exchange(part, {}));
     return all;
+}
+
+} // namespace
+
+FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
+                         const Progress& progress) {
+    PatchLimit limit(solid, patches, options, progress);
+    std::vector<std::uint32_t> all(patches.size());
+    std::iota(all.begin(), all.end(), 0u);
+    FittedPatches fitted = fitSome(limit, patches, all);
+    report(progress, "patches", 1);
+    return fitted;
+}
+
+FittedPatches fitPatchesSparsely(const Solid& solid, std::span<const Patch> patches,
+                                 const PatchOptions& options, const Progress& progress) {
+    constexpr int enough = 16;
+    PatchLimit limit(solid, patches, options, progress);
+    const Bvh tree = treeOfCentres(patches);
+    std::vector<int> covered(patches.size(), 0); // by so many candidates
+    std::vector<char> fit(patches.size(), 0);
+    FittedPatches fitted;
+    const auto round = [&](std::size_t first, std::size_t step) {
+        std::vector<std::uint32_t> numbers;
+        for (std::size_t i = first; i < patches.size(); i += step)
+            if (covered[i] < enough) numbers.push_back(std::uint32_t(i));
+        for (const std::uint32_t i : numbers) fit[i] = 1;
+        const FittedPatches more = fitSome(limit, patches, numbers);
+        for (const Sphere& ball : more.candidates)
+            visitBall(tree, ball.centre, ball.radius,
+                      [&](std::uint32_t i) { covered[i] += covers(ball, patches[i]); });
+        append(fitted, more);
+    };
+    round(0, 64); // every 64th patch, then those halfway between them, and so on
+    for (std::size_t step = 64; step > 1; step /= 2) round(step / 2, step);
+    // The others are covered, and have no ball of their own.
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+        if (fit[i]) continue;
+        fitted.patches.push_back(patches[i]);
+        fitted.candidates.push_back({patches[i].centre(), 0});
+        fitted.inner.push_back(-infinity);
+    }
+    report(progress, "patches", 1);
+    return fitted;
 }
 
 } // namespace tss

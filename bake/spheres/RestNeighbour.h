@@ -23,11 +23,9 @@ struct RestNeighbour {
     double halfGap = 0, partGap = 0; ///< scene units, >= 0
     double clearance = 0;            ///< of what must stay apart at rest, scene units, for messages
 
-    /// Whether it may keep any sphere from sticking out by `protrusion`. Where nothing else is given than a body
-    /// farther away than this takes, it never does.
-    bool binds(double protrusion) const {
-        return parts || spheres || clearance < 3 * (protrusion + halfGap);
-    }
+    /// Whether it may keep any sphere from sticking out by `protrusion`. Where nothing else is given than a
+    /// body farther away than this takes, it never does.
+    bool binds(double protrusion) const { return parts || spheres || clearance < 3 * (protrusion + halfGap); }
 
     /// The largest radius that a sphere about the centre may have. inner: radius d of the ball inside the
     /// body.

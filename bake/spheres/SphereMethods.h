@@ -22,6 +22,9 @@ struct MedialSet {
 MedialSet medialSpheres(const Solid& solid, std::span<const Patch> patches, double protrusion,
                         const MedialOptions& options, const Progress& progress = {});
 
+/// The greedy choice among candidates that cover their patches. Stopped, all of them.
+MedialSet chooseSpheres(const FittedPatches& fitted, const Progress& progress = {});
+
 /// One ball a patch, slack close to 0 so that it touches the surface at the patch's centre, grown by
 /// `protrusion`: plain shrinking balls. Covers the patches when they are fine enough, which fitPatches() sees
 /// to.

@@ -281,6 +281,11 @@ TEST_CASE("the distance of two meshes is the least of their triangles'") {
         CHECK(queryA.apart(queryB, pose, expected * (1 - 1e-9)));
         CHECK_FALSE(queryA.apart(queryB, pose, expected * (1 + 1e-9)));
         CHECK(std::isinf(queryA.distanceTo(queryB, pose, expected * (1 - 1e-9))));
+        CHECK(queryA.roughDistanceTo(queryB, pose) >= expected * (1 - 1e-12));
+        CHECK(queryA.roughDistanceTo(queryB, pose) <= expected / 0.95);
+        std::uint64_t looks = 0;
+        CHECK(queryA.apart(queryB, pose, expected * (1 - 1e-9), &looks));
+        CHECK_FALSE(queryA.apart(queryB, pose, expected * (1 - 1e-9), nullptr, looks / 2));
     }
     CHECK(far > 20);
     CHECK(crossing > 20);

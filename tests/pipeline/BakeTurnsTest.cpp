@@ -1,5 +1,6 @@
 // A bake in a given time: what comes first, and how long each may take.
 #include "bake/pipeline/BakeTurns.h"
+#include "bake/pipeline/BakeOptions.h"
 
 #include "bake/model/AddPair.h"
 #include "tests/Joints.h"
@@ -131,4 +132,16 @@ TEST_CASE("pairs that a joint ties come first, then what is nearest at rest") {
     }
     CHECK(order == "CD AB BC BD AC AD ");
     CHECK(pairsByWeight(scene, {4, 1}).front() == 1);
+}
+
+TEST_CASE("the pairs of a scene share how many tests they may keep where they are many") {
+    SceneModel scene;
+    scene.pairs.resize(1);
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 1'000'000);
+    scene.pairs.resize(500);
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 40'000);
+    scene.pairs.resize(100'000);
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 10'000);
+    scene.pairs[0].settings["max-tests"] = "123";
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 123);
 }

@@ -39,7 +39,7 @@ TEST_CASE("of a pair that never meets a report and a bake give one distance") {
     SceneModel scene = armScene(0.05);
     Pair baked = scene.pairs[0];
     PairReport notes;
-    bakePair(scene, baked, optionsFor(baked.settings, {}, scene.metersPerUnit), notes, {});
+    bakePair(scene, baked, optionsFor(scene, baked), notes, {});
     REQUIRE(baked.proof);
     CHECK_THAT(textOf(scene, folder),
                Catch::Contains("stay more than " + lengthText(baked.proof->clearance, 0.01) + " apart"));

@@ -263,3 +263,28 @@ TEST_CASE("what touches at a limit by less than rounding makes of it is found, a
     }
     CHECK(shown > 10); // calculated in double, these do not touch
 }
+
+TEST_CASE(
+    "that spheres never meet is shown where they do not, and where one pair does so at one pose it is not") {
+    // Two columns of spheres; one of B's swings in by a turn about its foot.
+    SphereSet a, b;
+    for (int i = 0; i < 40; ++i) {
+        a.push_back({{0, 0, 0.1 * i}, 0.08});
+        b.push_back({{1, 0, 0.1 * i}, 0.08});
+    }
+    const auto swung = [](double by) {
+        Motion motion;
+        motion.dofs = {joints::turn({1, 0, 0}, Vec3::UnitY(), -by, 0.1),
+                       joints::turn({1, 0, 0}, Vec3::UnitX(), -0.1, 0.1)};
+        return motion;
+    };
+    const double meets = std::asin((1 - 0.16) / 3.9); // about where the tops come together
+    CHECK(neverCollide(a, b, swung(meets - 0.01), {}, 0));
+    CHECK_FALSE(neverCollide(a, b, swung(meets + 0.01), {}, 0));
+    CHECK_FALSE(neverCollide(a, b, swung(meets - 0.01), {}, 0.1));
+    // Not where the only pair that meets is exempt.
+    std::vector<char> last(40, 0);
+    for (int i = 30; i < 40; ++i) last[i] = 1;
+    CHECK(neverCollide(a, b, swung(meets + 0.01), {last, last, 1}, 0));
+    CHECK(neverCollide({}, b, swung(1), {}, 0));
+}

@@ -5,6 +5,8 @@
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Import.h"
 #include "bake/spheres/FitMetrics.h"
+#include "bake/spheres/SphereMethods.h"
+#include "tests/Shapes.h"
 #include "tests/SharedMeshes.h"
 #include "tests/geometry/TestMeshes.h"
 
@@ -243,4 +245,44 @@ TEST_CASE("real meshes are filled within their tolerance") {
     const SphereFit fit = fitSpheres(mesh, medial(tolerance));
     checkConservative(mesh, fit, tolerance);
     CHECK(fit.note.empty() == (file != "franka_fer/link3.obj"));
+}
+
+TEST_CASE("a body far away at rest changes no sphere, one nearby does") {
+    std::mt19937_64 random(5);
+    const Solid solid(lumpyMesh(random, 3, 0.3));
+    const std::vector<Patch> patches = patchesOf(solid.mesh());
+    constexpr double protrusion = 0.05, halfGap = 0.01;
+    const MedialSet alone = medialSpheres(solid, patches, protrusion, {});
+    const MeshQuery surface(solid.mesh());
+    const auto beside = [&](double clearance) {
+        const TriangleMesh wall = boxMesh({-3, -3, -3}, {3, 3, -2.9});
+        auto neighbour = std::make_shared<RestNeighbour>();
+        neighbour->toOther.translation().z() =
+            clearance - surface.distanceTo(MeshQuery(wall), Eigen::Isometry3d::Identity());
+        neighbour->body = std::make_shared<const MeshQuery>(wall);
+        neighbour->halfGap = halfGap;
+        neighbour->clearance = clearance;
+        MedialOptions options;
+        options.neighbour = neighbour;
+        return medialSpheres(solid, patches, protrusion, options).spheres;
+    };
+    CHECK(sameBits(beside(3.1 * (protrusion + halfGap)), alone.spheres));
+    CHECK_FALSE(sameBits(beside(protrusion / 2), alone.spheres));
+}
+
+TEST_CASE("of many small triangles few get a candidate of their own, and the choice is hardly worse") {
+    constexpr double protrusion = 0.05;
+    const Solid solid(ballMesh({0.1, 0, 0}, 1, 5));
+    std::vector<Patch> patches = patchesOf(solid.mesh());
+    const PatchOptions options{protrusion, 10'000'000};
+    const FittedPatches all = fitPatches(solid, patches, options);
+    const FittedPatches some = fitPatchesSparsely(solid, patches, options);
+    const auto own = std::ranges::count_if(some.candidates, [](const Sphere& s) { return s.radius > 0; });
+    CHECK(own > 0);
+    CHECK(own < static_cast<std::ptrdiff_t>(all.candidates.size() / 10));
+    const SphereSet few = chooseSpheres(all).spheres, chosen = chooseSpheres(some).spheres;
+    CHECK(chosen.size() <= few.size() + few.size() / 5 + 2);
+    const FitMetrics metrics = measureFit(solid, chosen);
+    CHECK(metrics.coverage == 0);
+    CHECK(metrics.protrusion <= protrusion * (1 + 1e-9));
 }
