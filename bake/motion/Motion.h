@@ -54,7 +54,7 @@ inline double excess(const LimitPlane& plane, std::span<const double> q) {
 }
 
 /// The longest chain that is served.
-inline constexpr std::size_t maxDofs = 12;
+inline constexpr std::size_t maxDofs = 16;
 
 /// Values or changes of DOFs, room for the longest chain.
 using DofValues = std::array<double, maxDofs>;
