@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace tss {
 
@@ -212,23 +213,23 @@ private:
     }
 
     bool isWanted(int bodyA, int bodyB) const {
-        const auto same = [&](int a, int b) {
-            return (bodyA == a && bodyB == b) || (bodyA == b && bodyB == a);
-        };
-        for (const auto& [a, b] : robot_.unpaired)
-            if (same(indexOf(a), indexOf(b))) return false;
+        if (unpaired_.contains(std::minmax(bodyA, bodyB))) return false;
         if (request_.pairs == RobotPairs::All) return true;
-        return std::ranges::any_of(robot_.joints,
-                                   [&](const RobotJoint& joint) { return same(joint.parent, joint.child); });
+        return std::ranges::any_of(robot_.joints, [&](const RobotJoint& joint) {
+            return std::minmax(joint.parent, joint.child) == std::minmax(bodyA, bodyB);
+        });
     }
 
-    int indexOf(const std::string& link) const {
-        for (std::size_t i = 0; i < robot_.links.size(); ++i)
-            if (robot_.links[i].name == link) return static_cast<int>(i);
-        return -1;
+    void findUnpaired() {
+        std::map<std::string, int> links;
+        for (const RobotLink& link : robot_.links) links.emplace(link.name, static_cast<int>(links.size()));
+        for (const auto& [a, b] : robot_.unpaired)
+            if (links.contains(a) && links.contains(b))
+                unpaired_.insert(std::minmax(links.at(a), links.at(b)));
     }
 
     void addPairs() {
+        findUnpaired();
         const AllPairs found = addAllPairs(result_.scene);
         std::vector<Pair>& pairs = result_.scene.pairs;
         const std::size_t all = pairs.size();
@@ -289,7 +290,8 @@ private:
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;
     std::size_t triangles_ = 0;
-    std::vector<std::vector<int>> chains_; ///< the joints of the scene, per joint of the robot
+    std::vector<std::vector<int>> chains_;   ///< the joints of the scene, per joint of the robot
+    std::set<std::pair<int, int>> unpaired_; ///< bodies whose collision is switched off, the lower first
 };
 
 } // namespace

@@ -27,12 +27,17 @@ Colliders::Colliders(const SceneReading& reading) : reading_(reading) {
 }
 
 bool Colliders::collides(std::size_t entry) const {
+    const int at = colliderOf(entry);
+    return at >= 0 && reading_.reader(at).flag(enabled, true);
+}
+
+int Colliders::colliderOf(std::size_t entry) const {
     const std::vector<PrimEntry>& entries = reading_.index.entries;
     for (int at = static_cast<int>(entry); at >= 0; at = entries[at].parent) {
         const bool counts = at == static_cast<int>(entry) || !isGprim(*entries[at].prim);
-        if (counts && is(static_cast<std::size_t>(at))) return reading_.reader(at).flag(enabled, true);
+        if (counts && is(static_cast<std::size_t>(at))) return at;
     }
-    return false;
+    return -1;
 }
 
 bool Colliders::isPrototype(std::size_t entry) const {

@@ -80,6 +80,8 @@ public:
     bool is(std::size_t entry) const { return holds_[entry] == Own; }
     /// It collides itself, or is part of what does: of a prim above it that is no shape.
     bool collides(std::size_t entry) const;
+    /// The prim whose PhysicsCollisionAPI that is, switched on or not; -1 where there is none.
+    int colliderOf(std::size_t entry) const;
     /// A PointInstancer has copies of what is below it, and not that itself.
     bool isPrototype(std::size_t entry) const;
     /// Of an instancer: below it, or where its prototypes are, some prim has PhysicsCollisionAPI.
@@ -90,6 +92,17 @@ private:
     const SceneReading& reading_;
     std::vector<Holds> holds_; ///< one per entry: PhysicsCollisionAPI itself, or somewhere below it
 };
+
+/// Links as pairs of indices, the lower first; -1: the world.
+struct FilteredLinks {
+    std::vector<std::pair<int, int>> wholly; ///< no shape of one collides with any of the other
+    std::vector<std::pair<int, int>> partly; ///< some do
+};
+
+/// What PhysicsFilteredPairsAPI and collision groups leave of the pairs of links. linkOf: by entry, the link
+/// that it belongs to. What is not read of them leaves pairs on, noted.
+FilteredLinks filteredLinks(const SceneReading& reading, const Colliders& colliders,
+                            const std::vector<int>& linkOf, LeftOut& leftOut);
 
 /// The prim is of a type that meshOfGprim() reads.
 bool isGprim(const Prim& prim);

@@ -10,8 +10,7 @@ namespace tss {
 namespace {
 
 constexpr Attribute rigidEnabled{"physics:rigidBodyEnabled", "bool"},
-    kinematic{"physics:kinematicEnabled", "bool"}, approximation{"physics:approximation", "token", true},
-    filtered{"physics:filteredPairs", "rel"}, prototypes{"prototypes", "rel"};
+    kinematic{"physics:kinematicEnabled", "bool"}, approximation{"physics:approximation", "token", true};
 
 /// Empty also for what is no path, which is said where the joint is read.
 std::string bodyPathOf(const PrimReader& joint, const Attribute& body) {
@@ -327,24 +326,14 @@ private:
     }
 
     void readFilteredPairs() {
-        for (std::size_t i = 0; i < entries_.size(); ++i) {
-            if (!hasApi(*entries_[i].prim, "PhysicsFilteredPairsAPI")) continue;
-            for (const std::string& path : reader(i).targets(filtered)) {
-                const int other = reading_.index.find(path), a = linkOf_[i],
-                          b = other < 0 ? -1 : linkOf_[other];
-                const bool whole = a >= 0 && b >= 0 && isLinkItself(i) && isLinkItself(other);
-                if (whole)
-                    robot_.unpaired.emplace_back(robot_.links[a].name, robot_.links[b].name);
-                else
-                    leftOut_.add("left out: filtered pairs that are not of two bodies, so that they stay on",
-                                 pathOf(i));
-            }
-        }
-    }
-
-    bool isLinkItself(std::size_t entry) const {
-        const int parent = entries_[entry].parent;
-        return linkOf_[entry] >= 0 && (parent < 0 || linkOf_[parent] != linkOf_[entry]);
+        const FilteredLinks filtered = filteredLinks(reading_, colliders_, linkOf_, leftOut_);
+        const auto nameOf = [&](int link) {
+            return link >= 0 ? robot_.links[link].name : worldLink_ < 0 ? "" : robot_.links[worldLink_].name;
+        };
+        for (const auto& [a, b] : filtered.wholly) robot_.unpaired.emplace_back(nameOf(a), nameOf(b));
+        for (const auto& [a, b] : filtered.partly)
+            leftOut_.add("bodies of which some shapes alone are filtered, so that their pair stays on",
+                         nameOf(a) + " and " + nameOf(b));
     }
 
     mutable Problems problems_;
