@@ -227,7 +227,7 @@ private:
         if (!isGroup(prim) && !isGprim(prim) && type.find("Joint") == type.npos) {
             if (colliders_.is(entry))
                 leftOut_.add("left out: colliders of type " + type, pathOf(entry));
-            else
+            else if (type != "PhysicsCollisionGroup") // filteredLinks() reads these
                 others_[type].push_back(pathOf(entry));
         }
         if (colliders_.is(entry) && isGroup(prim))

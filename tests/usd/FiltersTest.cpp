@@ -59,7 +59,10 @@ TEST_CASE("collision groups that filter each other, or themselves, leave no pair
     CHECK(pairsOf(filteredScene("")) == allPairs);
     const std::string one = collisionGroup("G", "</R/b>, </R/c>", "</R/H>"),
                       other = collisionGroup("H", "</R/d>", "");
-    CHECK(pairsOf(filteredScene(one + other)) == "ab ac ad bc");
+    const RobotScene both = filteredScene(one + other);
+    CHECK(pairsOf(both) == "ab ac ad bc");
+    CHECK(hasNote(both.notes, "the robot's files switch off, left out: 2"));
+    CHECK(!hasNote(both.notes, "PhysicsCollisionGroup"));
     CHECK(pairsOf(filteredScene(collisionGroup("G", "</R/b>, </R/c>", "</R/G>"))) == "ab ac ad bd cd");
     CHECK(pairsOf(filteredScene(collisionGroup("G", "</R/b>, </R/c>", "</R/none>"))) == allPairs);
 }
