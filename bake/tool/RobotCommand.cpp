@@ -1,6 +1,7 @@
 #include "bake/tool/MakeScene.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/model/Kinematics.h"
 #include "bake/pipeline/BakeOptions.h"
@@ -19,14 +20,21 @@ namespace tss::tool {
 
 namespace {
 
+/// Robots have many frames and fixed joints, of which there is nothing to say.
+void sayTogether(const char* what, const std::vector<std::string>& names, const Console& console) {
+    constexpr std::size_t most = 6;
+    if (!names.empty()) console.say(fmt::format("{}: {}", what, firstOf(names, most)));
+}
+
 Json sayLinks(const RobotScene& made, const Console& console) {
     Json links = Json::array();
+    std::vector<std::string> frames;
     for (const LinkReport& link : made.links) {
         const Body& body = made.scene.bodies[findBody(made.scene, link.body)];
         const std::string name = primName(body.path);
         Json json = {{"body", body.path}, {"shapes", link.shapes}, {"triangles", body.mesh.triangles.size()}};
         if (body.mesh.empty()) {
-            console.say(name + ": no geometry");
+            frames.push_back(name);
         } else {
             const Vec3 size = bounds(body.mesh).sizes();
             const MeshAudit audit = auditMesh(body.mesh);
@@ -39,6 +47,7 @@ Json sayLinks(const RobotScene& made, const Console& console) {
         }
         links.push_back(json);
     }
+    sayTogether("no geometry", frames, console);
     return links;
 }
 
@@ -113,6 +122,7 @@ bool isOddSize(double metres) {
 Json sayScene(const MadeScene& made, const std::string& output, const Console& console) {
     const Json links = sayLinks(made, console);
     Json joints = Json::array();
+    std::vector<std::string> fixed;
     for (const Joint& joint : made.scene.joints) {
         Motion motion;
         motion.dofs = joint.dofs;
@@ -121,9 +131,12 @@ Json sayScene(const MadeScene& made, const std::string& output, const Console& c
                        : dof.kind == DofKind::Translation ? "slides"
                                                           : "goes along its path";
         joints.push_back({{"path", joint.path}, {"dofs", joint.dofs.size()}});
-        console.say(primName(joint.path) + ": " +
-                    (joint.dofs.empty() ? "fixed" : describeDofs(motion, made.scene.metersPerUnit)));
+        if (joint.dofs.empty())
+            fixed.push_back(primName(joint.path));
+        else
+            console.say(primName(joint.path) + ": " + describeDofs(motion, made.scene.metersPerUnit));
     }
+    sayTogether("fixed", fixed, console);
     std::vector<std::string> notes = made.notes;
     if (std::string note = overlapsElsewhere(made.scene, made.distances); !note.empty())
         notes.push_back(std::move(note));

@@ -40,10 +40,11 @@ Robot readRobot(const RobotFile& from, [[maybe_unused]] const std::string& text,
     const std::string root = rootName(text);
     const bool mujoco = root == "mujoco";
     if (!root.empty() && !mujoco && root != "robot")
-        throw InputError(
-            Where{from.input},
-            "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">" +
-                (root == "mujocoinclude" ? ", a part of one: take the file that includes it" : ""));
+        throw InputError(Where{from.input},
+                         "expected the <robot> of a URDF or the <mujoco> of an MJCF, found <" + root + ">" +
+                             (root == "mujocoinclude" ? ", a part of one: take the file that includes it"
+                              : root == "sdf" ? ", of Gazebo; sdf2mjcf of gz-mujoco makes an MJCF of it"
+                                              : ""));
     if (mujoco) {
 #ifdef OSGTSS_HAVE_MJCF
         return readMjcf(text, from.input, [&](const std::string& name) { return readWholeFile(find(name)); });

@@ -233,7 +233,7 @@ int main(int argc, char** argv) {
                        "0,-3,1:0,0,1 (default: from the front, right and above, all of the motion in sight)");
     options.add_flag("--rest", arguments.rest, "animations that nothing plays are not played either");
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
-    options.add_option("--options", arguments.options,
+    options.add_option("-O,--options", arguments.options,
                        "further words for the loader, as osgviewer -O takes them");
     options.add_flag("--json", arguments.json, "one JSON object on stdout, everything else on stderr");
     options.add_flag("--quiet", arguments.quiet, "nothing but errors and what was asked for");

@@ -42,6 +42,25 @@ Ran made(const std::string& arguments, const Folder& folder) {
 } // namespace
 
 #ifdef OSGTSS_HAVE_URDF
+TEST_CASE("frames and fixed joints of a robot are said together, the first of many by name") {
+    const Folder folder;
+    std::string robot = "<robot name='r'><link name='base'><visual><geometry><box size='1 1 1'/>"
+                        "</geometry></visual></link>";
+    for (int k = 0; k < 9; ++k) {
+        const std::string name = "skin" + std::to_string(k);
+        robot += "<link name='" + name + "'/><joint name='" + name +
+                 "_tie' type='fixed'><parent link='base'/><child link='" + name + "'/></joint>";
+    }
+    writeText(folder.path() / "skins.urdf", robot + "</robot>");
+    const Ran ran = made("skins.urdf -o skins.tss", folder);
+    const std::string said = ran.out + ran.err;
+    CHECK(said.find("\nno geometry: skin0, skin1, skin2, skin3, skin4, skin5 and 3 more\n") !=
+          std::string::npos);
+    CHECK(
+        said.find("\nfixed: skin0_tie, skin1_tie, skin2_tie, skin3_tie, skin4_tie, skin5_tie and 3 more\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("a link of a robot is moved at its joint, which stays, with what hangs on it") {
     const Folder folder;
     writeArm(folder);
@@ -180,6 +199,8 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
             "config.xml: expected the <robot> of a URDF or the <mujoco> of an MJCF, found <config>");
     writeText(folder.path() / "part.xml", "<mujocoinclude/>");
     refused("part.xml -o out.tss", 1, "found <mujocoinclude>, a part of one: take the file that includes it");
+    writeText(folder.path() / "model.sdf", "<?xml version='1.0'?>\n<sdf version='1.7'/>");
+    refused("model.sdf -o out.tss", 1, "found <sdf>, of Gazebo; sdf2mjcf of gz-mujoco makes an MJCF of it");
     writeText(folder.path() / "wide.urdf", std::string("\xFF\xFE<\0r\0o\0b\0o\0t\0/\0>\0", 18)); // UTF-16
     refused("wide.urdf -o out.tss", 1, "wide.urdf: expected text in UTF-8");
     writeText(folder.path() / "large.urdf",

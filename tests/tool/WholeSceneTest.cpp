@@ -76,7 +76,7 @@ TEST_CASE("a body that no joint moves stands still, and what moves is paired wit
                            folder.path());
     INFO(ran.err);
     REQUIRE(ran.exit == 0);
-    CHECK((ran.out + ran.err).find("foot_still: fixed") != std::string::npos);
+    CHECK((ran.out + ran.err).find("fixed: foot_still") != std::string::npos);
     const tss::SceneModel scene = tss::loadScene(folder / "limb.tss");
     REQUIRE(scene.pairs.size() == 2);
     for (const tss::Pair& pair : scene.pairs) {
