@@ -107,6 +107,13 @@ void expectEndedPly(const std::string& file, const std::string& begin) {
         throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
 }
 
+bool hasPlyStrips(const std::string& file) {
+    constexpr std::size_t header = 1 << 16;
+    const std::string begin = beginOf(file, header);
+    return lowerCase(begin.substr(0, 3)) == "ply" &&
+           begin.find("element tristrips") < begin.find("end_header");
+}
+
 /// What assimp says of lost surface in its log alone, and goes on. It has one log for a process.
 class Losses : public Assimp::LogStream {
 public:
@@ -287,7 +294,8 @@ MeshFile readHere(const std::string& file) {
         named += gltf->bytes.starts_with("glTF") ? ".glb" : ".gltf";
     auto* files = new NearbyFiles(named);
     importer.SetIOHandler(files); // which owns it
-    if (gltf) files->readInstead(gltf->bytes);
+    const std::string ply = hasPlyStrips(file) ? plainPly(file) : "";
+    if (gltf || !ply.empty()) files->readInstead(gltf ? gltf->bytes : ply);
     const std::unique_ptr<aiScene> owned = importScene(importer, *files, named);
     const aiScene& scene = *owned;
     if (gltf) applyBlendShapes(*owned);

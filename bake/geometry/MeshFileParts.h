@@ -30,6 +30,10 @@ struct PlainGltf {
 /// are not floats, and for a required extension that is not read and may change surfaces.
 std::optional<PlainGltf> plainGltf(const std::string& file);
 
+/// A PLY with faces in place of its triangle strips, of each of which assimp reads the last triangle alone.
+/// Throws InputError for one with faces too, and for strips that cannot be read.
+std::string plainPly(const std::string& file);
+
 /// The unit and the up axis that a file of Collada (which assimp turns into metres), glTF, FBX, 3MF or AMF
 /// states, and two things that assimp does not report: parts of a 3MF that lie in other files of its archive,
 /// and the spacing of floats at the mesh's coordinates where it is too coarse.
