@@ -172,7 +172,7 @@ private:
                 continue;
             }
             if (link < 0 && !physics) link = addLink(pathOf(i), world_[i].matrix), fixed_.push_back(false);
-            addShape(i, link, collider);
+            addShape(i, link, collider || !physics);
         }
     }
 

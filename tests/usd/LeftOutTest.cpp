@@ -132,3 +132,9 @@ TEST_CASE("a stage without shapes is refused with what it has instead, and nothi
                           Catch::Contains("left out: prims of other types: Camera (/c)") &&
                           !Catch::Contains("each mesh"));
 }
+
+TEST_CASE("of a stage without physics it is said once that each mesh is a body") {
+    const std::vector<std::string> notes = robotScene("def Cube \"a\" {}\ndef Cube \"b\" {}").notes;
+    CHECK(hasNote(notes, "no rigid bodies and no colliders: each mesh is a body of its own"));
+    CHECK_FALSE(hasNote(notes, "no collision geometry that can be had"));
+}
