@@ -52,15 +52,17 @@ Json sayLinks(const RobotScene& made, const Console& console) {
 }
 
 void remarkBodySizes(const SceneModel& scene, const Console& console) {
+    std::vector<std::string> odd;
     for (const Body& body : scene.bodies) {
         const double size = body.mesh.empty() ? 0 : diagonal(body.mesh) * scene.metersPerUnit;
-        if (isOddSize(size))
-            console.say(
-                fmt::format("note: {} is {} long if one unit of its meshes is {} m; where it is not, "
-                            "say what it is: metersPerUnit of a stage, a scale in another robot's file, else "
-                            "--meters-per-unit",
-                            body.path, lengthText(size, 1), scene.metersPerUnit));
+        if (isOddSize(size)) odd.push_back(fmt::format("{} {}", body.path, lengthText(size, 1)));
     }
+    constexpr std::size_t most = 4;
+    if (!odd.empty())
+        console.say(fmt::format("note: how long bodies are if one unit of their meshes is {} m: {}; where "
+                                "that is wrong, say what it is: metersPerUnit of a stage, a scale in another "
+                                "robot's file, else --meters-per-unit",
+                                scene.metersPerUnit, firstOf(odd, most)));
 }
 
 /// The command to go on with: where there are many pairs, in about as much time as somebody waits.

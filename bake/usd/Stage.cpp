@@ -1,6 +1,7 @@
 #include "bake/usd/Stage.h"
 
 #include "bake/base/AtomicFile.h"
+#include "bake/base/Words.h"
 #include "bake/usd/MergePrims.h"
 #include "bake/usd/OurLayer.h"
 #include "bake/usd/PrimSites.h"
@@ -70,6 +71,10 @@ public:
             for (const UsdSpec& spec : stack.children)
                 stage.layer.children.push_back(primOf(*sites_.top(stack, spec.prim.name)));
         }
+        constexpr std::size_t most = 2;
+        if (!outside_.empty())
+            stacks_.note("targets out of what is referenced of their file, which name nothing, as in USD: " +
+                         firstOf(outside_, most));
         stage.notes = stacks_.takeNotes();
         return stage;
     }
@@ -85,9 +90,7 @@ private:
             Prim said = one->spec->prim;
             mapPaths(said, [&](const std::string& path) {
                 const auto there = inStage(*one, path);
-                if (!there)
-                    stacks_.note("the target " + path + " at " + one->path + " of " + one->layer->file +
-                                 " is out of what is referenced of it, and names nothing, as in USD");
+                if (!there) outside_.push_back(path + " at " + one->path + " of " + one->layer->file);
                 return there;
             });
             if (isClassBased(*one) && said.specifier == "class") said.specifier = "over";
@@ -129,6 +132,7 @@ private:
     LayerStacks stacks_;
     PrimSites sites_;
     std::size_t prims_ = 0, numbers_ = 0;
+    std::vector<std::string> outside_; ///< targets out of what is referenced
 };
 
 } // namespace

@@ -61,6 +61,19 @@ TEST_CASE("frames and fixed joints of a robot are said together, the first of ma
         std::string::npos);
 }
 
+TEST_CASE("bodies of an odd size are named together, each with its own") {
+    const Folder folder;
+    std::string robot = "<robot name='r'>";
+    for (int k = 0; k < 6; ++k)
+        robot += "<link name='l" + std::to_string(k) + "'><visual><geometry><box size='" +
+                 std::to_string(20 + k) + " 0.1 0.1'/></geometry></visual></link>";
+    writeText(folder.path() / "long.urdf", robot + "</robot>");
+    const Ran ran = made("long.urdf -o long.tss", folder);
+    CHECK((ran.out + ran.err)
+              .find("note: how long bodies are if one unit of their meshes is 1 m: /r/l0 20 m, /r/l1 21 m, "
+                    "/r/l2 22 m, /r/l3 23 m and 2 more; where that is wrong") != std::string::npos);
+}
+
 TEST_CASE("a link of a robot is moved at its joint, which stays, with what hangs on it") {
     const Folder folder;
     writeArm(folder);

@@ -89,7 +89,9 @@ class "Base" { double a = 9
     CHECK(listItems(*primAt(stage, "/Left").property("there")->targetPaths) ==
           std::vector<std::string>{"/Left/Hand"});
     CHECK(listItems(*primAt(stage, "/Left").property("outside")->targetPaths).empty());
-    CHECK(hasNote(stage.notes, "the target /Other at /Arm of parts/arm.usda is out of what is referenced"));
+    CHECK(hasNote(stage.notes,
+                  "targets out of what is referenced of their file, which name nothing, as in USD: "
+                  "/Other at /Arm of parts/arm.usda"));
     CHECK(findPrim(stage.layer, "/Below"));
     CHECK_FALSE(primAt(stage, "/Left").metadata.contains("references"));
 }
