@@ -21,13 +21,19 @@ double oneDigit(double value) {
     return std::round(value / digit) * digit;
 }
 
+double smallerDiagonal(const SceneModel& scene, const Pair& pair) {
+    return std::min(diagonal(scene.bodies[pair.bodyA].mesh), diagonal(scene.bodies[pair.bodyB].mesh));
+}
+
+constexpr double usualShare = 1.0 / 30, roomShare = 0.3; ///< of the smaller diagonal, of the distance at rest
+constexpr double nearShare = usualShare / roomShare; ///< of that diagonal: from there on room does not count
+
 /// The tolerance of a first look at a pair whose meshes are so far apart at rest, scene units.
 double firstTolerance(const SceneModel& scene, const Pair& pair, double distance) {
-    const double smaller =
-        std::min(diagonal(scene.bodies[pair.bodyA].mesh), diagonal(scene.bodies[pair.bodyB].mesh));
+    const double smaller = smallerDiagonal(scene, pair);
     if (!(distance > 0)) return smaller / 100;
-    if (isLongChain(scene, pair)) return smaller / 30;
-    return std::max(std::min(smaller / 30, 0.3 * distance), smaller / 500);
+    if (isLongChain(scene, pair)) return usualShare * smaller;
+    return std::max(std::min(usualShare * smaller, roomShare * distance), smaller / 500);
 }
 
 } // namespace
@@ -48,9 +54,14 @@ std::vector<double> distancesAtRest(const SceneModel& scene) {
         double distance = std::numeric_limits<double>::infinity();
         if (!a.empty() && !b.empty()) {
             const Motion motion = pairMotion(scene, pair);
-            distance =
-                surfaceOf(pair.bodyA).distanceTo(surfaceOf(pair.bodyB), pose(motion, restValues(motion)));
+            const Pose bToA = pose(motion, restValues(motion));
+            const MeshQuery &surfaceA = surfaceOf(pair.bodyA), &surfaceB = surfaceOf(pair.bodyB);
+            const double far = nearShare * smallerDiagonal(scene, pair);
+            distance = surfaceA.distanceTo(surfaceB, bToA, far);
             if (distance <= touchingDistance(a, b, motion)) distance = 0;
+            if (!(distance < far))
+                distance = std::max(far, (bToA * surfaceB.centre() - surfaceA.centre()).norm() -
+                                             surfaceA.radius() - surfaceB.radius());
         }
         distances.push_back(distance);
     }

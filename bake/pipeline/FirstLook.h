@@ -10,7 +10,8 @@ namespace tss {
 bool isLongChain(const SceneModel& scene, const Pair& pair);
 
 /// How far apart the meshes of each pair are where the joints rest, scene units: 0 where they touch or
-/// overlap, infinity where a body has no mesh.
+/// overlap, infinity where a body has no mesh. From a ninth of the smaller body's diagonal on it is only no
+/// more than that, which is quick: room beyond makes no tolerance of setFirstTolerances() another.
 std::vector<double> distancesAtRest(const SceneModel& scene);
 
 /// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
