@@ -107,6 +107,23 @@ void expectEndedPly(const std::string& file, const std::string& begin) {
         throw InputError(Where{file}, "cannot be read as a mesh: its header has no line end_header");
 }
 
+/// A binary STL of another size than its header says, of which an importer says that it is no STL. Throws
+/// InputError.
+void expectWholeStl(const std::string& file, const std::string& begin) {
+    constexpr std::size_t header = 84, each = 50;
+    if (extensionOf(file) != ".stl" || begin.size() < header || begin.starts_with("solid") ||
+        begin.find('\0') >= header) // text
+        return;
+    std::uint32_t count = 0;
+    for (std::size_t k = header; k-- > header - 4;) count = count << 8 | static_cast<unsigned char>(begin[k]);
+    const std::uintmax_t has = fs::file_size(file), says = header + each * std::uintmax_t(count);
+    if (has != says)
+        throw InputError(Where{file},
+                         fmt::format("cannot be read as a mesh: its header says {}, which take {} bytes, and "
+                                     "it has {}; write it again",
+                                     counted(count, "triangle"), says, has));
+}
+
 bool hasPlyStrips(const std::string& file) {
     constexpr std::size_t header = 1 << 16;
     const std::string begin = beginOf(file, header);
@@ -336,6 +353,7 @@ MeshFile readMeshFile(const std::string& file) {
     expectFetched(file, begin);
     expectWholeGlb(file);
     expectEndedPly(file, begin);
+    expectWholeStl(file, begin);
     // 4 GB, and what a large file takes that is packed.
     const std::size_t memory = (std::size_t(4) << 30) + 64 * fs::file_size(file);
     try {

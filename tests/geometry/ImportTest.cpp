@@ -374,6 +374,10 @@ TEST_CASE("lengths that a file does not have, endless faces and corners that are
         refusal(
             TemporaryFile("endless.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n").name)
             .find("no line end_header") != std::string::npos);
+    std::string stl(84 + 70, '\0');
+    stl[80] = 2;
+    CHECK(refusal(TemporaryFile("cut.stl", stl).name)
+              .find("says 2 triangles, which take 184 bytes, and it has 154") != std::string::npos);
     std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
     for (int k = 0; k < 4000; ++k) face += " 1 2 3";
     CHECK(refusal(TemporaryFile("face.obj", face + "\n").name).find("a face of 12000 corners") !=
