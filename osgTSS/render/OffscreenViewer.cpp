@@ -93,7 +93,7 @@ void OffscreenViewer::look(unsigned int frame) {
         return camera.setViewMatrixAsLookAt(eye, at, up);
     }
     ShownVertices shown(_shot.framing);
-    _viewer->getSceneData()->accept(shown);
+    if (!_shot.framed) _viewer->getSceneData()->accept(shown);
     camera.setViewMatrix(_shot.framing.view());
 }
 

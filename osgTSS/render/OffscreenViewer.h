@@ -22,6 +22,7 @@ struct Shot {
     std::optional<std::array<osg::Vec3d, 2>>
         place;                ///< eye and what it looks at; none: aslant from the front, all in sight
     Framing framing{4.0 / 3}; ///< of the default view: what the motion reaches beyond the beginning
+    bool framed = false;      ///< and the beginning too: what else is shown need not be in sight
 };
 
 /// A viewer without a window, in the OpenGL context that is current in this thread: one time code a frame,

@@ -62,11 +62,34 @@ std::map<std::size_t, MovingSkin> movingSkins(const tss::SceneModel& model) {
     return skins;
 }
 
+/// Bodies that stand still and dwarf all that moves, as a ground does: with them in sight nothing of that
+/// would be seen.
+std::vector<bool> scenery(const tss::SceneModel& model) {
+    constexpr double dwarfing = 30;
+    const std::vector<int> roots = tss::rigidRoots(model);
+    const std::vector<bool> soft = tss::softBodies(model);
+    std::vector<double> rest;
+    for (const tss::Joint& joint : model.joints)
+        for (const tss::Dof& dof : joint.dofs) rest.push_back(dof.rest);
+    const std::vector<tss::Pose> poses = tss::posedBodies(model, rest);
+    const auto stands = [&](std::size_t body) { return roots[body] < 0 && !soft[body]; };
+    Eigen::AlignedBox3d moving;
+    for (std::size_t body = 0; body < poses.size(); ++body)
+        if (!stands(body) && model.bodies[body].visible)
+            for (const tss::Vec3& v : model.bodies[body].mesh.vertices) moving.extend(poses[body] * v);
+    std::vector<bool> found(poses.size());
+    for (std::size_t body = 0; body < poses.size(); ++body)
+        found[body] = !moving.isEmpty() && stands(body) &&
+                      tss::diagonal(model.bodies[body].mesh) > dwarfing * moving.diagonal().norm();
+    return found;
+}
+
 } // namespace
 
-void addReach(Framing& framing, const tss::SceneModel& model, bool turned, bool animated) {
+void addReach(Framing& framing, const tss::SceneModel& model, bool turned, bool animated, bool still) {
     std::map<std::size_t, MovingSkin> skins = movingSkins(model);
-    const int count = intervals(model, animated);
+    const std::vector<bool> aside = scenery(model);
+    const int count = still ? 0 : intervals(model, animated);
     const double codes = std::floor(model.endTimeCode - model.startTimeCode);
     for (int k = 0; k <= count; ++k) {
         const double share = count ? static_cast<double>(k) / count : 0;
@@ -78,7 +101,7 @@ void addReach(Framing& framing, const tss::SceneModel& model, bool turned, bool 
                     valueAt(joint, dof, time, animated, share, 1 + static_cast<int>(values.size() % 3)));
         const std::vector<tss::Pose> poses = tss::posedBodies(model, values);
         for (std::size_t body = 0; body < poses.size(); ++body) {
-            if (!model.bodies[body].visible) continue;
+            if (!model.bodies[body].visible || aside[body]) continue;
             std::span<const tss::Vec3> points = model.bodies[body].mesh.vertices;
             if (const auto found = skins.find(body); found != skins.end()) {
                 auto& [skin, response] = found->second;
@@ -88,6 +111,11 @@ void addReach(Framing& framing, const tss::SceneModel& model, bool turned, bool 
             for (const tss::Vec3& v : points) framing.add(shown(tss::Vec3(poses[body] * v), turned));
         }
     }
+}
+
+bool hasScenery(const tss::SceneModel& model) {
+    const std::vector<bool> aside = scenery(model);
+    return std::ranges::find(aside, true) != aside.end();
 }
 
 } // namespace osgTSS

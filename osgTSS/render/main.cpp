@@ -176,10 +176,12 @@ void render(const Arguments& arguments) {
     const osg::ref_ptr<osg::Node> scene = load(arguments);
     const double seconds = arguments.rest ? 0 : osgTSS::playAnimations(*scene);
     const unsigned int frames = framesOf(arguments, *scene, seconds);
-    if (osgTSS::Scene* found = osgTSS::Scene::on(*scene); found && frames > 1) {
-        if (!shot.place && !shot.view)
-            osgTSS::addReach(shot.framing, found->getModel(), isTurned(arguments, *scene), seconds > 0);
-        showEnd(*found);
+    if (osgTSS::Scene* found = osgTSS::Scene::on(*scene)) {
+        shot.framed = osgTSS::hasScenery(found->getModel());
+        if (!shot.place && !shot.view && (frames > 1 || shot.framed))
+            osgTSS::addReach(shot.framing, found->getModel(), isTurned(arguments, *scene), seconds > 0,
+                             frames == 1);
+        if (frames > 1) showEnd(*found);
     }
     if (shot.place)
         for (osg::Vec3d& point : *shot.place) point = osgTSS::shown(point, isTurned(arguments, *scene));
@@ -230,7 +232,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     options.add_option("--view", arguments.view,
                        "a camera path, as osgviewer -p reads it, or EYE:AT in scene units, such as "
-                       "0,-3,1:0,0,1 (default: from the front, right and above, all of the motion in sight)");
+                       "0,-3,1:0,0,1 (default: from the front, right and above, all of the motion in sight, "
+                       "but not of a ground that dwarfs it)");
     options.add_flag("--rest", arguments.rest, "animations that nothing plays are not played either");
     options.add_flag("--overlay", arguments.overlay, "show spheres, tested pairs and contacts");
     options.add_option("-O,--options", arguments.options,

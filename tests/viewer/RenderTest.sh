@@ -100,6 +100,14 @@ tube upper 0 17 1 && tube lower 23 40 1 && tube hide -9 49 7
 "$build/bin/tss" make -o "$out/limb.tss" --quiet --body "$out/upper.obj" --body "$out/lower.obj" \
     --skin "$out/hide.obj" --joint 'elbow=upper,lower:rot:20,0,0:0,1,0:-80:80'
 fits 160x120 "$out/limb.tss" 12
+# Nor does a ground count that is so large that nothing of the rest would be seen: two corners of it, aside.
+printf 'v %s\n' '3276 2294 0' '3277 2294 0' '3276 2295 0' '-3276 -2294 0' '-3277 -2294 0' '-3276 -2295 0' \
+    >"$out/ground.obj"
+printf 'f %s\n' '1 2 3' '4 5 6' >>"$out/ground.obj"
+"$build/bin/tss" make -o "$out/outdoors.tss" --quiet --body "$out/ground.obj" --body "$out/upper.obj" \
+    --body "$out/lower.obj" --joint 'turn=ground,upper:rot:0,0,0:0,0,1:0:20' \
+    --joint 'elbow=upper,lower:rot:20,0,0:0,1,0:-80:80'
+fits 160x120 "$out/outdoors.tss" 12
 # No more is in sight than the skin itself, as the corners of its bounding box would be.
 printf 'v %s\n' '70 0 0' '-30 0 0' '20 50 0' '20 -50 0' '20 0 50' '20 0 -50' >"$out/octahedron.obj"
 printf 'f %s\n' '1 3 5' '3 2 5' '2 4 5' '4 1 5' '3 1 6' '2 3 6' '4 2 6' '1 4 6' >>"$out/octahedron.obj"
