@@ -12,28 +12,6 @@ constexpr Attribute filteredPairs{"physics:filteredPairs", "rel"},
     excludes{"collection:colliders:excludes", "rel"}, includeRoot{"collection:colliders:includeRoot", "bool"},
     expansionRule{"collection:colliders:expansionRule", "token"};
 
-using Paths = std::set<std::string>;
-
-/// Prims as a UsdCollectionAPI has them: of a prim and those above it the nearest that is named decides.
-struct Collection {
-    Paths included, excluded;
-    bool expands = true; ///< what is below an included prim is in it too
-    bool all = false;    ///< all prims are, but for the excluded
-
-    bool holds(const std::string& path) const {
-        for (std::string at = path; !at.empty(); at.erase(at.rfind('/'))) {
-            if (excluded.contains(at)) return false;
-            if (included.contains(at) && (expands || at == path)) return true;
-        }
-        return all;
-    }
-};
-
-Paths pathsAt(const PrimReader& prim, const Attribute& relationship) {
-    const auto targets = prim.targets(relationship);
-    return {targets.begin(), targets.end()};
-}
-
 bool isGroupPrim(const Prim& prim) {
     return prim.typeName == "PhysicsCollisionGroup";
 }
@@ -42,6 +20,17 @@ bool isGroupPrim(const Prim& prim) {
 struct FilteredShape {
     int link, entry, collider;
     std::set<int> groups;
+};
+
+/// Groups that one filters: those that it names, or of the collision groups all others.
+struct FilterRule {
+    std::set<int> named;
+    bool others = false;
+};
+
+/// What collision groups say of a prim, by their places in the file.
+struct NamedMembers {
+    std::vector<int> excluded, included, alone; ///< alone: without what is below it
 };
 
 class Filters {
@@ -56,7 +45,7 @@ public:
 
     FilteredLinks links() const {
         FilteredLinks found;
-        if (off_.empty()) return found;
+        if (rules_.empty()) return found;
         std::map<int, std::set<std::set<int>>> kinds; // by link; many shapes are in the same groups
         for (const FilteredShape& shape : shapes_) kinds[shape.link].insert(shape.groups);
         for (auto a = kinds.begin(); a != kinds.end(); ++a)
@@ -93,45 +82,68 @@ private:
     }
 
     void readGroups() {
+        struct Group {
+            int number; ///< of merged ones the same
+            bool others;
+            std::vector<std::string> filtered;
+        };
+        std::vector<Group> groups;
         std::map<std::string, int> numbers, merged; // by path, by the name they are merged under
-        std::map<std::string, bool> inversion;      // by path: those groups are meant that are not named
-        std::map<std::string, Paths> named;
         forThose(isGroupPrim, "left out: collision groups that cannot be read", [&](const PrimReader& prim) {
-            const std::string& path = prim.place().path;
-            const Collection members = membersOf(prim);
-            named[path] = pathsAt(prim, filteredGroups);
-            inversion[path] = prim.flag(inverted, false);
-            const int number = prim.has(mergeGroup)
-                                   ? merged.try_emplace(prim.text(mergeGroup), groups_).first->second
-                                   : groups_;
-            groups_ = std::max(groups_, number + 1);
-            numbers[path] = number;
-            for (FilteredShape& shape : shapes_)
-                if (members.holds(pathOf(shape.collider))) shape.groups.insert(number);
+            Group group{groups_, prim.flag(inverted, false), prim.targets(filteredGroups)};
+            const bool merges = prim.has(mergeGroup);
+            const std::string name = prim.text(mergeGroup);
+            readMembers(prim, static_cast<int>(groups.size())); // what cannot be read has ended this by here
+            if (merges) group.number = merged.try_emplace(name, groups_).first->second;
+            groups_ = std::max(groups_, group.number + 1);
+            numbers[prim.place().path] = group.number;
+            groups.push_back(std::move(group));
         });
-        for (const auto& [path, number] : numbers) {
-            std::set<int> those;
-            for (const std::string& other : named[path])
-                if (numbers.contains(other)) those.insert(numbers[other]);
-            for (int group = 0; group < groups_; ++group)
-                if (those.contains(group) != inversion[path]) switchOff(number, group);
+        collisionGroups_ = groups_;
+        for (const Group& group : groups) {
+            FilterRule& rule = rules_[group.number].emplace_back();
+            rule.others = group.others;
+            for (const std::string& path : group.filtered)
+                if (const auto at = numbers.find(path); at != numbers.end()) rule.named.insert(at->second);
         }
+        for (FilteredShape& shape : shapes_)
+            for (const int group : groupsOf(pathOf(shape.collider)))
+                shape.groups.insert(groups[group].number);
     }
 
     /// With fewer members than in the file fewer pairs are left out, none that should not be.
-    Collection membersOf(const PrimReader& prim) {
-        Collection members;
-        members.included = pathsAt(prim, includes);
-        members.excluded = pathsAt(prim, excludes);
-        members.all = prim.flag(includeRoot, false);
-        members.expands = prim.text(expansionRule) != "explicitOnly";
+    void readMembers(const PrimReader& prim, int group) {
+        const auto in = prim.targets(includes), out = prim.targets(excludes);
+        const bool all = prim.flag(includeRoot, false), expands = prim.text(expansionRule) != "explicitOnly";
         const auto isOther = [](const std::string& path) { return path.find('.') != path.npos; };
-        const bool less = std::ranges::any_of(members.excluded, isOther);
-        if (less || std::ranges::any_of(members.included, isOther) ||
+        const bool less = std::ranges::any_of(out, isOther);
+        if (less || std::ranges::any_of(in, isOther) ||
             prim.prim().property("collection:colliders:membershipExpression"))
             leftOut_.add("left out: members of collision groups that other collections or expressions name",
                          prim.place().path);
-        return less ? Collection() : members;
+        if (less) return;
+        for (const std::string& path : out) members_[path].excluded.push_back(group);
+        for (const std::string& path : in)
+            (expands ? members_[path].included : members_[path].alone).push_back(group);
+        if (all) all_.push_back(group);
+    }
+
+    /// As a UsdCollectionAPI has it: of a prim and those above it the nearest that a group names decides.
+    std::set<int> groupsOf(const std::string& path) const {
+        std::set<int> decided, in;
+        const auto decide = [&](const std::vector<int>& groups, bool member) {
+            for (const int group : groups)
+                if (decided.insert(group).second && member) in.insert(group);
+        };
+        for (std::string at = path; !at.empty(); at.erase(at.rfind('/'))) {
+            const auto named = members_.find(at);
+            if (named == members_.end()) continue;
+            decide(named->second.excluded, false);
+            decide(named->second.included, true);
+            if (at == path) decide(named->second.alone, true);
+        }
+        decide(all_, true);
+        return in;
     }
 
     void readPairs() {
@@ -143,7 +155,7 @@ private:
             for (const std::string& path : prim.targets(filteredPairs)) {
                 const int b = groupOf(reading_.index.find(path));
                 if (a >= 0 && b >= 0)
-                    switchOff(a, b);
+                    rules_[a].push_back({{b}, false});
                 else
                     leftOut_.add(left, prim.place().path);
             }
@@ -179,12 +191,17 @@ private:
         return at->second;
     }
 
-    void switchOff(int a, int b) { off_.insert(std::minmax(a, b)); }
+    bool filters(int one, int other) const {
+        const auto rules = rules_.find(one);
+        return rules != rules_.end() && std::ranges::any_of(rules->second, [&](const FilterRule& rule) {
+                   return rule.named.contains(other) != (rule.others && other < collisionGroups_);
+               });
+    }
 
     bool areOff(const std::set<int>& one, const std::set<int>& other) const {
         for (const int a : one)
             for (const int b : other)
-                if (off_.contains(std::minmax(a, b))) return true;
+                if (filters(a, b) || filters(b, a)) return true;
         return false;
     }
 
@@ -194,9 +211,11 @@ private:
     const std::vector<int>& linkOf_;
     LeftOut& leftOut_;
     std::vector<FilteredShape> shapes_;
-    int groups_ = 0;
-    std::map<int, int> own_;            ///< by entry that a filtered pair names: its group
-    std::set<std::pair<int, int>> off_; ///< groups that do not collide with each other, or in themselves
+    int groups_ = 0, collisionGroups_ = 0;
+    std::map<int, int> own_; ///< by entry that a filtered pair names: its group
+    std::map<int, std::vector<FilterRule>> rules_;
+    std::map<std::string, NamedMembers> members_; ///< by path
+    std::vector<int> all_;                        ///< groups of all prims but those that they exclude
 };
 
 } // namespace
