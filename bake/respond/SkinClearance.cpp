@@ -11,52 +11,42 @@ using Vec3f = Eigen::Vector3f;
 /// skin that is stretched may have come the rest of the way.
 constexpr float skinShare = 0.5f;
 
-/// anchorOffset() as a vector of four with a 0 at the end, for vector instructions.
-inline Move anchorOffset4(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+/// Offset from start k of a row to its vertex, in the body's frame: from the anchor, or from the middle of
+/// the start triangle on the skin. Of a bone, which never moves in that frame, the vertex itself. The fourth
+/// component has no meaning.
+inline Move offsetFrom(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, std::uint32_t k) {
     const SkinScene::Placed& placed = scene.bodies[row.body];
-    const auto anchor = [&](const Move* surface) -> Move {
-        return row.weights[0] * surface[row.corners[0]] + row.weights[1] * surface[row.corners[1]] +
-               row.weights[2] * surface[row.corners[2]];
-    };
     const auto toBody = [&](const Move& x) -> Move {
         if (!placed.moved) return x;
         const Vec3f y = placed.toBody(x.head<3>());
         return {y[0], y[1], y[2], 0};
     };
     const Move* skin = scene.skin.data();
-    if (row.kind == SkinContactKind::BodyOnSkin) return scene.surface[row.vertex] - toBody(anchor(skin));
-    if (row.kind == SkinContactKind::SkinOnSkin) return skin[row.vertex] - anchor(skin);
-    const SkinBody& body = rig.bodies[row.body];
-    const Move x = toBody(skin[row.vertex]);
-    return body.bone() ? x : Move(x - anchor(scene.surface.data() + body.first));
-}
-
-/// Whether a vertex that is tested against the skin has moved so far against any start triangle but the
-/// first, which is its anchor: parts of the skin that turn meet it elsewhere.
-bool movedAgainstStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float far) {
-    if (row.last - row.first < 2) return false;
-    const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
-    const SkinBody& body = rig.bodies[row.body];
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    const Vec3f place =
-        onSkin ? rig.places[row.vertex].head<3>() : body.rest[row.vertex - body.first].head<3>();
-    const Vec3f now = onSkin ? scene.skin[row.vertex].head<3>() : scene.surface[row.vertex].head<3>();
-    const auto middle = [](const std::vector<Move>& skin, const Tri& t) -> Vec3f {
-        return (skin[t[0]] + skin[t[1]] + skin[t[2]]).head<3>() / 3;
-    };
-    for (std::uint32_t k = row.first + 1; k < row.last; ++k) {
-        const Tri& t = rig.triangles[rig.starts[k]];
-        const Vec3f at = middle(scene.skin, t), before = place - middle(rig.places, t);
-        if ((now - (onSkin || !placed.moved ? at : placed.toBody(at)) - before).squaredNorm() >= far * far)
-            return true;
+    const int start = rig.starts[row.first + k];
+    if (row.kind == SkinContactKind::SkinOnBody) {
+        const SkinBody& body = rig.bodies[row.body];
+        const Move x = toBody(skin[row.vertex]);
+        if (body.bone()) return x;
+        const Move* surface = scene.surface.data() + body.first;
+        const Tri& t = body.triangles[start];
+        return x - (row.weights[0] * surface[t[0]] + row.weights[1] * surface[t[1]] +
+                    row.weights[2] * surface[t[2]]);
     }
-    return false;
+    const Tri& t = rig.triangles[start];
+    const Move middle = (skin[t[0]] + skin[t[1]] + skin[t[2]]) * (1 / 3.0f);
+    if (row.kind == SkinContactKind::SkinOnSkin) return skin[row.vertex] - middle;
+    return scene.surface[row.vertex] - toBody(middle);
 }
 
 } // namespace
 
 Vec3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return anchorOffset4(rig, scene, row).head<3>();
+    return offsetFrom(rig, scene, row, 0).head<3>();
+}
+
+void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
+    for (std::uint32_t k = 0; k < row.last - row.first; ++k)
+        starts[k].offsetAndGap.head<3>() = offsetFrom(rig, scene, row, k).head<3>();
 }
 
 Vec3f vertexPlace(const SkinScene& scene, const SkinRow& row) {
@@ -78,19 +68,22 @@ float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow
 
 bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    const SkinClearance* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : placed.at.node);
+    const std::uint32_t starts = row.last - row.first;
+    const TrackPlace& place = scene.bodies[row.body].at;
+    const SkinClearance* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : place.node * starts);
     float free = row.kind == SkinContactKind::SkinOnBody ? at->gap() : skinShare * at->gap();
     // At rest no constraint is violated, so that a small motion may be ignored; a muscle's activation alone
     // may violate one.
     if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
     if (!(free > 0)) return true;
-    Move expected = at->offsetAndGap;
-    if (!onSkin && placed.at.t != 0)
-        expected += static_cast<float>(placed.at.t) * (at[1].offsetAndGap - expected);
-    const Move change = anchorOffset4(rig, scene, row) - expected; // the fourth component has no meaning
-    if (change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free) return true;
-    return row.kind != SkinContactKind::SkinOnBody && movedAgainstStarts(rig, scene, row, free);
+    const float t = onSkin ? 0 : static_cast<float>(place.t);
+    for (std::uint32_t k = 0; k < starts; ++k) {
+        Move expected = at[k].offsetAndGap;
+        if (t != 0) expected += t * (at[starts + k].offsetAndGap - expected);
+        const Move change = offsetFrom(rig, scene, row, k) - expected;
+        if (change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free) return true;
+    }
+    return false;
 }
 
 } // namespace tss

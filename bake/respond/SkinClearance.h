@@ -18,9 +18,12 @@ Eigen::Vector3f vertexPlace(const SkinScene& scene, const SkinRow& row);
 /// How far such a vertex is from the nearest of the planes of its start triangles, run-time length.
 float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
-/// Whether the two sides of a row may touch, judged by how far the vertex has moved against the anchor since
-/// all else but its muscle's activation was at rest (SkinClearance), and since rest against each further
-/// start triangle.
+/// Sets the offsets of a row's clearances, one per start, by the current scene.
+void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts);
+
+/// Whether the two sides of a row may touch, judged by how far the vertex has moved against each start
+/// triangle since all else but its muscle's activation was at rest (SkinClearance): parts of the skin that
+/// turn meet it elsewhere than at the anchor.
 bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
 } // namespace tss

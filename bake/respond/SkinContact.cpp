@@ -222,7 +222,7 @@ SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
     if (row.insideAtRest) {
         Vec3f anchor = Vec3f::Zero();
         for (int k = 0; k < 3; ++k)
-            anchor += row.weights[k] * scene.normalOf(static_cast<std::size_t>(row.corners[k]));
+            anchor += scene.normalOf(static_cast<std::size_t>(rig.triangles[rig.starts[row.first]][k]));
         facing = std::max(facing, smooth.dot(anchor.normalized()));
     }
     float trust = trustOf(facing);

@@ -47,12 +47,13 @@ void updatePlane(const SkinPlane& now, const SkinScene& scene, float slide, Skin
     }
 }
 
-/// Calls what(vertex) for each skin vertex of a row: its vertex and the corners of its anchor.
+/// Calls what(vertex) for each skin vertex of a row: its vertex and the corners of its first start.
 template <class What>
-void eachVertex(const SkinRow& row, const What& what) {
+void eachVertex(const SkinRig& rig, const SkinRow& row, const What& what) {
     if (row.kind != SkinContactKind::BodyOnSkin) what(row.vertex);
     if (row.kind != SkinContactKind::SkinOnBody)
-        for (const int corner : row.corners) what(static_cast<std::uint32_t>(corner));
+        for (const int corner : rig.triangles[rig.starts[row.first]])
+            what(static_cast<std::uint32_t>(corner));
 }
 
 } // namespace
@@ -62,7 +63,7 @@ SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
       waitingOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0) {
     std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
     for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
-        eachVertex(rig.rows[r], [&](std::uint32_t v) {
+        eachVertex(rig, rig.rows[r], [&](std::uint32_t v) {
             std::vector<std::uint32_t>& ofBlock = rows[v / SkinRig::block];
             if (ofBlock.empty() || ofBlock.back() != r) ofBlock.push_back(r);
         });
@@ -134,7 +135,7 @@ bool SkinContactSolver::displaced(const SkinPlane& plane) const {
 
 bool SkinContactSolver::displaced(const SkinRow& row) const {
     bool any = false;
-    eachVertex(row, [&](std::uint32_t v) { any = any || displaced_[v]; });
+    eachVertex(rig_, row, [&](std::uint32_t v) { any = any || displaced_[v]; });
     return any;
 }
 

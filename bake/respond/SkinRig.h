@@ -53,14 +53,14 @@ enum class SkinContactKind : std::uint8_t {
     SkinOnSkin, ///< a skin vertex against another part of the skin
 };
 
-/// How far the two sides of a row are apart at one node of its muscle's activation, everything else at rest:
-/// it lets mayTouch() rule out contact without a query.
+/// Where a row's vertex is against one start of the row at one node of its muscle's activation, everything
+/// else at rest: it lets mayTouch() rule out contact without a query.
 struct SkinClearance {
-    /// x, y, z: offset from the row's anchor to its vertex. w: gap; while the offset differs from this one by
-    /// less than the gap, here or between this node and the next, the two sides do not touch.
+    /// x, y, z: offset from the start to the vertex. w: gap of the row, with its first start; while the
+    /// offset from no start differs by more than a share of it, here or between this node and the next, the
+    /// two sides do not touch.
     Move offsetAndGap = Move::Zero();
 
-    Eigen::Vector3f relative() const { return offsetAndGap.head<3>(); }
     float gap() const { return offsetAndGap[3]; }
     float& gap() { return offsetAndGap[3]; }
 };
@@ -71,17 +71,18 @@ struct SkinRow {
     SkinContactKind kind = SkinContactKind::SkinOnBody;
     std::uint32_t vertex = 0; ///< of the skin; BodyOnSkin: among those of all bodies
     std::uint32_t body = 0;
-    std::uint32_t first = 0, last = 0; ///< start triangles of the query: range in SkinRig::starts
+    std::uint32_t first = 0,
+                  last = 0;    ///< start triangles of the query: range in SkinRig::starts; the anchor,
+                               ///< the point of the surface that the vertex faces at rest, is in the first
     bool insideAtRest = false; ///< the vertex is on the wrong side of the surface at rest already, and is
                                ///< only kept from getting deeper
     bool fromOutside = false;  ///< SkinOnBody of a bone: that lies before the outer side of the skin at rest,
                                ///< as teeth do before the lining of a lip
     bool flipped = false; ///< the surface overlaps itself, and its side next to the vertex is wound the wrong
                           ///< way round: its normal counts negative
-    Tri corners{0, 0, 0}; ///< anchor, the point of the surface that the vertex faces at rest: triangle ...
-    Eigen::Vector3f weights = Eigen::Vector3f::Zero(); ///< ... and barycentric weights
-    std::uint32_t clearance =
-        0; ///< first in SkinRig::clearances: one per node of its muscle, else one at rest
+    Eigen::Vector3f weights{1 / 3.0f, 1 / 3.0f, 1 / 3.0f}; ///< of the anchor, barycentric
+    std::uint32_t clearance = 0; ///< first in SkinRig::clearances: one per start, at each node of its muscle,
+                                 ///< else at rest
     Eigen::Vector3f facing = Eigen::Vector3f::Zero(); ///< SkinOnBody: unit normal at the anchor at rest
     Eigen::Vector3f atRest = Eigen::Vector3f::Zero(); ///< anchorOffset() at rest
     float offset = 0; ///< least signed distance to keep, <= 0: the overlap at rest, run-time lengths

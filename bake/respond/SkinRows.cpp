@@ -33,8 +33,6 @@ void addRowsOf(SkinRig& rig, const SkinContacts& found, SkinContactKind kind, st
         rig.starts.insert(rig.starts.end(), triangles.begin(), triangles.end());
         row.last = static_cast<std::uint32_t>(rig.starts.size());
         row.insideAtRest = found.outside[v] != 0;
-        row.corners = rig.triangles[triangles.front()];
-        row.weights.setConstant(1 / 3.0f);
         rig.rows.push_back(row);
         for (const int t : triangles)
             for (const int corner : rig.triangles[t]) pushed[corner] = true;
@@ -46,24 +44,25 @@ bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
     return row.kind != SkinContactKind::SkinOnSkin && !rig.bodies[row.body].bone();
 }
 
-/// The clearance of a muscle's row in a scene.
-SkinClearance clearanceOf(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    SkinClearance clearance;
-    clearance.offsetAndGap.head<3>() = anchorOffset(rig, scene, row);
+/// Sets the clearance of a muscle's row at one node, which the scene is at.
+void measureClearance(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
+    measureOffsets(rig, scene, row, starts);
     const SkinPlane plane = queryContact(rig, scene, row);
-    clearance.gap() = clearance.relative().norm();
+    float& gap = starts->gap();
+    gap = starts->offsetAndGap.head<3>().norm();
     if (plane.found)
-        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.gap());
+        gap = std::clamp(plane.distance, 0.0f, gap);
     else if (row.kind == SkinContactKind::BodyOnSkin)
-        clearance.gap() = heightOverStarts(rig, scene, row);
-    return clearance;
+        gap = heightOverStarts(rig, scene, row);
 }
 
 /// Lowers the gap of each node to one that holds for all activations up to the next node.
-void boundBetweenNodes(SkinClearance* nodes, std::size_t count) {
-    for (std::size_t n = 0; n + 1 < count; ++n) {
-        const float step = (nodes[n + 1].relative() - nodes[n].relative()).norm();
-        nodes[n].gap() = std::max(std::min(nodes[n].gap(), nodes[n + 1].gap()) - step / 2, 0.0f);
+void boundBetweenNodes(SkinClearance* at, std::size_t nodes, std::size_t starts) {
+    for (std::size_t n = 0; n + 1 < nodes; ++n, at += starts) {
+        float step = 0;
+        for (std::size_t k = 0; k < starts; ++k)
+            step = std::max(step, (at[starts + k].offsetAndGap - at[k].offsetAndGap).head<3>().norm());
+        at->gap() = std::max(std::min(at->gap(), at[starts].gap()) - step / 2, 0.0f);
     }
 }
 
@@ -72,14 +71,15 @@ void boundBetweenNodes(SkinClearance* nodes, std::size_t count) {
 void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
     const bool body = row.kind == SkinContactKind::SkinOnBody, bone = rig.bodies[row.body].bone();
     if (body) {
+        const SkinBody& at = rig.bodies[row.body];
         for (int k = 0; k < 3; ++k)
             row.facing +=
-                row.weights[k] * scene.normals[rig.bodies[row.body].first + row.corners[k]].head<3>();
+                row.weights[k] * scene.normals[at.first + at.triangles[rig.starts[row.first]][k]].head<3>();
         if (row.facing.squaredNorm() > 0) row.facing.normalize();
     }
     SkinClearance& clearance = rig.clearances[row.clearance];
-    row.atRest = anchorOffset(rig, scene, row);
-    clearance.offsetAndGap.head<3>() = row.atRest;
+    measureOffsets(rig, scene, row, &clearance);
+    row.atRest = clearance.offsetAndGap.head<3>();
     row.offset = -1; // so that the query trusts an overlap of any depth
     SkinPlane plane = queryContact(rig, scene, row, 0);
     row.offset = 0;
@@ -97,7 +97,7 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         if (row.insideAtRest && plane.found) row.offset = std::min(plane.distance, 0.0f);
     } else if (plane.found) {
         row.offset = std::min(plane.distance, 0.0f);
-        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.relative().norm());
+        clearance.gap() = std::clamp(plane.distance, 0.0f, row.atRest.norm());
     } else if (!body) { // the surface faces another way at rest
         clearance.gap() = heightOverStarts(rig, scene, row);
     }
@@ -158,7 +158,6 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& can
         row.first = static_cast<std::uint32_t>(rig.starts.size());
         rig.starts.push_back(candidate.nearest.triangle);
         row.last = row.first + 1;
-        row.corners = rig.bodies[candidate.body].triangles[candidate.nearest.triangle];
         row.weights = candidate.nearest.weights.cast<float>();
         rig.rows.push_back(row);
         pushed[row.vertex] = true;
@@ -175,8 +174,8 @@ std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& can
 void measureRows(SkinRig& rig) {
     for (SkinRow& row : rig.rows) {
         row.clearance = static_cast<std::uint32_t>(rig.clearances.size());
-        rig.clearances.resize(rig.clearances.size() +
-                              (ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1));
+        const std::size_t nodes = ofMuscle(rig, row) ? rig.bodies[row.body].nodes.size() : 1;
+        rig.clearances.resize(rig.clearances.size() + nodes * (row.last - row.first));
     }
     SkinScene scene;
     std::vector<double> activations(rig.bodies.size(), 0);
@@ -191,12 +190,16 @@ void measureRows(SkinRig& rig) {
         for (std::size_t n = 0; n < nodes.size() && !rowsOf[m].empty(); ++n) {
             activations[m] = nodes[n];
             placeBodies(rig, activations, poses, {}, scene);
-            for (const std::uint32_t r : rowsOf[m])
-                rig.clearances[rig.rows[r].clearance + n] = clearanceOf(rig, scene, rig.rows[r]);
+            for (const std::uint32_t r : rowsOf[m]) {
+                const SkinRow& row = rig.rows[r];
+                measureClearance(rig, scene, row,
+                                 &rig.clearances[row.clearance + n * (row.last - row.first)]);
+            }
         }
         activations[m] = 0;
         for (const std::uint32_t r : rowsOf[m])
-            boundBetweenNodes(rig.clearances.data() + rig.rows[r].clearance, nodes.size());
+            boundBetweenNodes(rig.clearances.data() + rig.rows[r].clearance, nodes.size(),
+                              rig.rows[r].last - rig.rows[r].first);
     }
 }
 

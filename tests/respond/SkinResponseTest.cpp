@@ -79,7 +79,7 @@ TEST_CASE("skin whose triangles share no vertex is lifted as one") {
 }
 
 TEST_CASE(
-    "what a muscle by itself has moved is hardly looked up, and what an update costs is told while asked") {
+    "what a muscle by itself has moved is not looked up, and what an update costs is told while asked") {
     SkinResponse response(skins::usual().rig());
     SkinCosts costs;
     response.charge(&costs);
@@ -87,7 +87,7 @@ TEST_CASE(
     for (std::size_t f = 1; f <= frames; ++f)
         response.update(std::vector<double>{static_cast<double>(f) / frames});
     CHECK(costs.updates == frames);
-    CHECK(costs.lookUps < frames * response.rig().rows.size() / 2);
+    CHECK(costs.lookUps == 0); // 1,640 where triangles but the first were compared with where they rest
     for (const SkinPart part : {SkinPart::Carry, SkinPart::Sort, SkinPart::Show})
         CHECK(costs.seconds[static_cast<std::size_t>(part)] > 0);
     for (const SkinPart part : {SkinPart::Bones, SkinPart::Folds})
@@ -95,7 +95,6 @@ TEST_CASE(
     response.charge(nullptr);
     response.update(std::vector<double>{0.5});
     CHECK(costs.updates == frames);
-    UNSCOPED_INFO(costs.lookUps << " look-ups of " << response.rig().rows.size() << " rows");
     CHECK(response.rig().rows.size() > 0);
 }
 
