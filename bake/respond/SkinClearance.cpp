@@ -11,42 +11,55 @@ using Vec3f = Eigen::Vector3f;
 /// skin that is stretched may have come the rest of the way.
 constexpr float skinShare = 0.5f;
 
-/// Offset from start k of a row to its vertex, in the body's frame: from the anchor, or from the middle of
-/// the start triangle on the skin. Of a bone, which never moves in that frame, the vertex itself. The fourth
+/// Calls until(k, offset) for each start k of a row, until it returns true, and returns whether it did.
+/// offset: from the start to the vertex, in the body's frame: from the anchor, or from the middle of the
+/// start triangle on the skin. Of a bone, which never moves in that frame, the vertex itself. Its fourth
 /// component has no meaning.
-inline Move offsetFrom(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, std::uint32_t k) {
+template <class Until>
+bool eachOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Until& until) {
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const auto toBody = [&](const Move& x) -> Move {
-        if (!placed.moved) return x;
         const Vec3f y = placed.toBody(x.head<3>());
         return {y[0], y[1], y[2], 0};
     };
     const Move* skin = scene.skin.data();
-    const int start = rig.starts[row.first + k];
+    const int* starts = rig.starts.data() + row.first;
     if (row.kind == SkinContactKind::SkinOnBody) {
         const SkinBody& body = rig.bodies[row.body];
-        const Move x = toBody(skin[row.vertex]);
-        if (body.bone()) return x;
+        const Move x = placed.moved ? toBody(skin[row.vertex]) : skin[row.vertex];
+        if (body.bone()) return until(0, x);
         const Move* surface = scene.surface.data() + body.first;
-        const Tri& t = body.triangles[start];
-        return x - (row.weights[0] * surface[t[0]] + row.weights[1] * surface[t[1]] +
-                    row.weights[2] * surface[t[2]]);
+        const Tri& t = body.triangles[starts[0]];
+        return until(0, x - (row.weights[0] * surface[t[0]] + row.weights[1] * surface[t[1]] +
+                             row.weights[2] * surface[t[2]]));
     }
-    const Tri& t = rig.triangles[start];
-    const Move middle = (skin[t[0]] + skin[t[1]] + skin[t[2]]) * (1 / 3.0f);
-    if (row.kind == SkinContactKind::SkinOnSkin) return skin[row.vertex] - middle;
-    return scene.surface[row.vertex] - toBody(middle);
+    const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
+    const Move x = onSkin ? skin[row.vertex] : scene.surface[row.vertex];
+    for (std::uint32_t k = 0; k < row.last - row.first; ++k) {
+        const Tri& t = rig.triangles[starts[k]];
+        Move middle = (skin[t[0]] + skin[t[1]] + skin[t[2]]) * (1 / 3.0f);
+        if (!onSkin && placed.moved) middle = toBody(middle);
+        if (until(k, x - middle)) return true;
+    }
+    return false;
 }
 
 } // namespace
 
 Vec3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return offsetFrom(rig, scene, row, 0).head<3>();
+    Vec3f first = Vec3f::Zero();
+    eachOffset(rig, scene, row, [&](std::uint32_t, const Move& offset) {
+        first = offset.head<3>();
+        return true;
+    });
+    return first;
 }
 
 void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
-    for (std::uint32_t k = 0; k < row.last - row.first; ++k)
-        starts[k].offsetAndGap.head<3>() = offsetFrom(rig, scene, row, k).head<3>();
+    eachOffset(rig, scene, row, [&](std::uint32_t k, const Move& offset) {
+        starts[k].offsetAndGap.head<3>() = offset.head<3>();
+        return false;
+    });
 }
 
 Vec3f vertexPlace(const SkinScene& scene, const SkinRow& row) {
@@ -77,13 +90,12 @@ bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
     if (!(free > 0)) return true;
     const float t = onSkin ? 0 : static_cast<float>(place.t);
-    for (std::uint32_t k = 0; k < starts; ++k) {
+    return eachOffset(rig, scene, row, [&](std::uint32_t k, const Move& offset) {
         Move expected = at[k].offsetAndGap;
         if (t != 0) expected += t * (at[starts + k].offsetAndGap - expected);
-        const Move change = offsetFrom(rig, scene, row, k) - expected;
-        if (change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free) return true;
-    }
-    return false;
+        const Move change = offset - expected;
+        return change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free;
+    });
 }
 
 } // namespace tss
