@@ -1,5 +1,6 @@
 #include "bake/bind/SkinNormals.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tss {
@@ -8,34 +9,37 @@ namespace {
 /// The two other corners of a triangle at a vertex, in the triangle's order.
 using Side = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Pairs each triangle with the next one around the vertex, if there is one that is not yet paired.
-void pairUp(std::vector<Side>& sides, std::uint32_t vertex, Lists<SkinFan>& fans) {
-    const auto successor = [&](std::uint32_t corner) {
-        std::size_t k = 0;
-        while (k < sides.size() && sides[k].first != corner) ++k;
-        return k;
+using Ring = std::vector<std::uint32_t>;
+
+/// Takes triangles that follow one another around a vertex, from a rim of the mesh where there is one: their
+/// corners, the first again at the end where they go all around.
+Ring takeChain(std::vector<Side>& sides) {
+    const auto isFirst = [&](const Side& side) {
+        return std::ranges::find(sides, side.first, &Side::second) == sides.end();
     };
-    const auto hasPredecessor = [&](std::size_t at) {
-        for (const Side& side : sides)
-            if (side.second == sides[at].first) return true;
-        return false;
-    };
-    while (!sides.empty()) {
-        // At a rim begin with the first triangle, so that few remain single.
-        std::size_t at = 0;
-        while (at + 1 < sides.size() && hasPredecessor(at)) ++at;
-        if (hasPredecessor(at)) at = 0;
-        const Side side = sides[at];
-        sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(at));
-        const std::size_t next = successor(side.second);
-        if (next == sides.size()) {
-            fans.push_back({side.first, side.second, vertex});
-            continue;
-        }
-        fans.push_back({side.second, sides[next].second, side.first});
-        sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(next));
+    auto next = std::ranges::find_if(sides, isFirst);
+    if (next == sides.end()) next = sides.begin();
+    Ring chain{next->first};
+    while (next != sides.end()) {
+        chain.push_back(next->second);
+        sides.erase(next);
+        next = std::ranges::find(sides, chain.back(), &Side::first);
     }
-    fans.endList();
+    return chain;
+}
+
+/// The ring of a vertex from its sides; begins with the second corner of the first chain.
+Ring ringOf(std::vector<Side> sides, std::uint32_t vertex) {
+    Ring ring;
+    while (!sides.empty()) {
+        Ring chain = takeChain(sides);
+        if (chain.size() % 2 == 0) chain.push_back(chain.back());
+        const bool closes = ring.empty() && sides.empty() && chain.front() == chain.back();
+        ring.insert(ring.end(), chain.begin(), chain.end() - (closes ? 1 : 0));
+        if (!closes) ring.push_back(vertex); // no area from one chain to the next
+    }
+    if (!ring.empty()) std::ranges::rotate(ring, ring.begin() + 1);
+    return ring;
 }
 
 } // namespace
@@ -52,15 +56,22 @@ std::vector<Vec3> skinNormals(const TriangleMesh& skin) {
     return normals;
 }
 
-Lists<SkinFan> skinFans(const std::vector<Tri>& triangles, std::size_t count) {
+Lists<std::uint32_t> skinRings(const std::vector<Tri>& triangles, std::size_t count) {
     std::vector<std::vector<Side>> sides(count);
     for (const Tri& t : triangles)
         for (int k = 0; k < 3; ++k)
             if (static_cast<std::size_t>(t[k]) < count)
                 sides[t[k]].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
-    Lists<SkinFan> fans;
-    for (std::uint32_t v = 0; v < count; ++v) pairUp(sides[v], v, fans);
-    return fans;
+    Lists<std::uint32_t> rings;
+    for (std::uint32_t v = 0; v < count; v += 2) {
+        Ring pair[2] = {ringOf(sides[v], v), v + 1 < count ? ringOf(sides[v + 1], v + 1) : Ring{}};
+        const std::size_t longest = std::max({pair[0].size(), pair[1].size(), std::size_t(2)});
+        for (Ring& ring : pair) ring.resize(longest, ring.empty() ? v : ring.back());
+        for (std::size_t k = 0; k < longest; ++k)
+            for (const Ring& ring : pair) rings.push_back(4 * ring[k]);
+        rings.endList();
+    }
+    return rings;
 }
 
 } // namespace tss

@@ -10,13 +10,11 @@ namespace tss {
 /// Unit vertex normals weighted by triangle area, as SkinResponse has them at rest.
 std::vector<Vec3> skinNormals(const TriangleMesh& skin);
 
-/// Two triangles around a vertex v that share the edge (v, middle), or a single one with v itself as first
-/// corner: the sum of their area vectors is half of (middle - v) x (last - first), one cross product for two.
-struct SkinFan {
-    std::uint32_t middle = 0, last = 0, first = 0;
-};
-
-/// The triangles around each of the first `count` vertices, grouped in pairs where they share an edge.
-Lists<SkinFan> skinFans(const std::vector<Tri>& triangles, std::size_t count);
+/// The triangles around each of the first `count` vertices, as a closed ring of an even number of corners c0,
+/// c1, ...: twice the sum of their area vectors is that of (c0 - v) x (c1 - c-1), (c2 - v) x (c3 - c1), and
+/// so on, one cross product for two triangles. A ring that is no ring of the mesh names a corner twice, or v
+/// itself. Rings of two vertices 2i and 2i + 1 are made equally long, and stand together: c0 of the one, c0
+/// of the other, c1, ... A corner is named by its place among floats, four a vertex.
+Lists<std::uint32_t> skinRings(const std::vector<Tri>& triangles, std::size_t count);
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #include "bake/respond/SkinResponse.h"
 
 #include "bake/respond/SkinContactSolver.h"
+#include "bake/respond/SkinNormalKernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,6 @@ namespace {
 double activationOf(std::span<const double> activations, const SkinBody& body, std::size_t m) {
     const double a = m < activations.size() ? activations[m] : 0;
     return std::isnan(a) || body.nodes.empty() ? 0 : std::clamp(a, body.nodes.front(), body.nodes.back());
-}
-
-/// The components y, z, x: a cross product is a difference of two such products (one shuffle instruction).
-inline Move rotated(const Move& x) {
-    return {x[1], x[2], x[0], x[3]};
 }
 
 /// Whether squared lengths of a pose fit into floats; other poses count as the identity.
@@ -43,6 +39,7 @@ public:
     SkinScene scene_;
     SkinContactSolver contactSolver_;
     SkinClock clock_;
+    SkinNormalKernel normalKernel_ = skinNormalKernel(bestTarget());
     std::vector<Vec3> positions_, normals_;
     std::vector<char> shown_, shownBefore_; ///< #blocks: positions or normals are not those at rest
     std::vector<double> activations_;
@@ -120,38 +117,26 @@ void SkinResponse::State::toRest() {
 /// Copies the positions of a block to the output, scene units.
 void SkinResponse::State::showPlaces(std::size_t block) {
     const std::size_t first = block * SkinRig::block,
-                      last = std::min(first + SkinRig::block, rig_->places.size());
-    const Move *skin = scene_.skin.data(), *places = rig_->places.data();
+                      count = std::min(SkinRig::block, rig_->places.size() - first);
+    const Move *skin = scene_.skin.data() + first, *places = rig_->places.data() + first;
+    float moved[3 * SkinRig::block + 1];
+    for (std::size_t v = 0; v < count; ++v) Eigen::Map<Move>(moved + 3 * v) = skin[v] - places[v];
     const double size = rig_->size;
-    const double* rest = rig_->rest[0].data() + 3 * first;
-    double* position = positions_[0].data() + 3 * first;
-    for (std::size_t v = first; v < last; ++v, rest += 3, position += 3) {
-        const Move moved = skin[v] - places[v];
-        for (int k = 0; k < 3; ++k) position[k] = rest[k] + size * static_cast<double>(moved[k]);
-    }
+    const double* rest = rig_->rest[first].data();
+    double* position = positions_[first].data();
+    for (std::size_t k = 0; k < 3 * count; ++k) position[k] = rest[k] + size * static_cast<double>(moved[k]);
 }
 
 void SkinResponse::State::showNormals(std::size_t block) {
-    const std::size_t last = std::min((block + 1) * SkinRig::block, rig_->places.size());
-    const Move* skin = scene_.skin.data();
-    Vec3* normals = normals_.data();
-    const float outward = rig_->inverted ? -1 : 1;
-    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
-        Move sum = Move::Zero(); // z, x, y
-        const Move own = skin[v];
-        for (const SkinFan& fan : rig_->fans[v]) {
-            const Move spoke = skin[fan.middle] - own, rim = skin[fan.last] - skin[fan.first];
-            sum += spoke.cwiseProduct(rotated(rim)) - rotated(spoke).cwiseProduct(rim);
-        }
-        const float squared = sum.squaredNorm();
-        const float scale = squared > 0 ? outward / std::sqrt(squared) : 0;
-        sum *= scale;
-        if (squared > 0)
-            normals[v] =
-                Vec3(static_cast<double>(sum[1]), static_cast<double>(sum[2]), static_cast<double>(sum[0]));
-        else
-            normals[v] = rig_->restNormals[v];
-    }
+    const std::size_t first = block * SkinRig::block,
+                      count = std::min(SkinRig::block, rig_->places.size() - first);
+    float found[3 * SkinRig::block + 1];
+    const bool all = normalKernel_({rig_->rings, scene_.skin[0].data(), rig_->inverted ? -1.0f : 1.0f},
+                                   first / 2, (first + count + 1) / 2, found);
+    double* normal = normals_[first].data();
+    for (std::size_t k = 0; k < 3 * count; ++k) normal[k] = static_cast<double>(found[k]);
+    for (std::size_t v = first; v < first + count && !all; ++v)
+        if (normals_[v].isZero(0)) normals_[v] = rig_->restNormals[v];
 }
 
 /// Updates the output where skin has moved, the normals around it, and what is back at rest.

@@ -68,7 +68,7 @@ Move placeOf(const SkinRig& rig, const Vec3& x) {
     return toMove((x - rig.centre) / rig.size);
 }
 
-/// Adds the triangles whose corners are all touched, and the fans of all triangles at touched vertices.
+/// Adds the triangles whose corners are all touched, and the rings of all triangles around touched vertices.
 void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std::uint32_t>& indexOf) {
     std::vector<std::uint32_t> borderOf(skin.vertices.size(), untouched);
     std::vector<Tri> at;
@@ -95,7 +95,7 @@ void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std:
     const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
     std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
     rig.across = trianglesAcross(rig.triangles);
-    rig.fans = skinFans(at, rig.vertices.size());
+    rig.rings = skinRings(at, rig.vertices.size());
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
     for (const Vec3& n : rig.restNormals) rig.placeNormals.push_back(toMove(rig.inverted ? Vec3(-n) : n));
 }
@@ -126,9 +126,8 @@ void addBlocks(SkinRig& rig) {
         for (const SkinPull& pull : rig.pulls[v]) mark(rig.bodies[bodyOf[pull.from]].blocks, own);
         for (const SkinFrameShare& share : rig.frameShares[v]) mark(rig.frameBlocks[share.frame], own);
         around[own].insert(own);
-        for (const SkinFan& fan : rig.fans[v])
-            for (const std::uint32_t corner : {fan.first, fan.middle, fan.last})
-                if (corner < rig.vertices.size()) around[corner / SkinRig::block].insert(own);
+        for (const std::uint32_t place : rig.rings[v / 2])
+            if (place / 4 < rig.vertices.size()) around[place / 4 / SkinRig::block].insert(own);
     }
     rig.around = Lists<std::uint32_t>(around);
 }
@@ -220,7 +219,7 @@ Pose SkinRig::local(const Pose& pose) const {
 std::size_t SkinRig::bytes() const {
     std::size_t sum =
         foundation.bytes() + rows.size() * sizeof(SkinRow) + clearances.size() * sizeof(SkinClearance) +
-        pulls.bytes() + frameShares.bytes() + fans.bytes() + around.bytes() +
+        pulls.bytes() + frameShares.bytes() + rings.bytes() + around.bytes() +
         vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +

@@ -106,10 +106,10 @@ struct SkinRig {
                                       ///< the same position that it follows
     std::vector<Tri> triangles;       ///< those of touched vertices only, by their first corners
     std::vector<Tri> across;          ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
-    Lists<SkinFan> fans;              ///< per touched vertex; indices into vertices, then borderPlaces
+    Lists<std::uint32_t> rings; ///< skinRings() of touched vertices; those of vertices, then borderPlaces
 
     std::vector<Move> places, placeNormals; ///< rest positions and outward normals, run-time lengths
-    std::vector<Move> borderPlaces;         ///< untouched corners of fans, run-time lengths
+    std::vector<Move> borderPlaces;         ///< untouched corners of rings, run-time lengths
     /// Touched vertices are updated in blocks of this many.
     static constexpr std::size_t block = 16;
     Lists<std::uint32_t> around; ///< per block: the blocks whose normals depend on it, itself included

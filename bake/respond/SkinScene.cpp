@@ -93,6 +93,7 @@ void prepareScene(const SkinRig& rig, SkinScene& scene) {
     scene.live.assign(rig.blocks(), 0);
     scene.carried = scene.skin = rig.places;
     scene.skin.insert(scene.skin.end(), rig.borderPlaces.begin(), rig.borderPlaces.end());
+    scene.skin.push_back(Move::Zero()); // SkinNormalQuestion::places
     scene.skinNormals = rig.placeNormals;
 }
 

@@ -30,7 +30,7 @@ struct SkinScene {
     std::vector<Move> moves;       ///< displacement of these vertices since rest by contraction and swelling
     std::vector<char> live;        ///< #blocks: something that moves it is not at rest
     std::vector<Move> carried;     ///< #touched: skin as muscles and bones carry it, before contact
-    std::vector<Move> skin;        ///< #touched: skin after contact; then the border's vertices
+    std::vector<Move> skin;        ///< #touched: skin after contact; then the border's vertices, and one more
     std::vector<Move> skinNormals; ///< #touched: normals at rest, rotated with the bones
     Eigen::Vector3f normalOf(std::size_t v) const { return skinNormals[v].head<3>(); }
 };
