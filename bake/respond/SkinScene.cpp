@@ -57,33 +57,33 @@ std::optional<Pose> blendedPose(const SkinRig& rig, const SkinScene& scene, std:
     return moves ? std::optional(blend.pose()) : std::nullopt;
 }
 
-/// The position of a vertex by dual quaternion skinning, after muscles have displaced it by `sum`; rotates
-/// its normal.
-Move blendedPlace(const SkinRig& rig, SkinScene& scene, std::size_t v, const Move& sum) {
-    const std::optional<Pose> blended = blendedPose(rig, scene, v);
-    if (!blended) return rig.places[v] + sum;
-    const Pose& pose = *blended;
-    const Vec3 place = rig.places[v].head<3>().cast<double>() + sum.head<3>().cast<double>();
-    Move result = rig.places[v];
-    result.head<3>() = (pose * place).cast<float>();
-    scene.skinNormals[v].head<3>() =
-        (pose.linear() * rig.placeNormals[v].head<3>().cast<double>()).cast<float>();
-    return result;
+/// Turns a vertex that muscles have displaced, and its normal, by dual quaternion skinning.
+void turn(const SkinRig& rig, SkinScene& scene, std::size_t v) {
+    const std::optional<Pose> pose = blendedPose(rig, scene, v);
+    scene.skinNormals[v] = rig.placeNormals[v];
+    if (!pose) return;
+    const auto both = [](auto& x, const auto& moved) { x.template head<3>() = moved.template cast<float>(); };
+    both(scene.carried[v], *pose * scene.carried[v].head<3>().cast<double>());
+    both(scene.skinNormals[v], pose->linear() * rig.placeNormals[v].head<3>().cast<double>());
 }
 
+/// turns: whether bones turn skin, or have at the last update.
 void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<const Vec3> shift,
                 SkinScene& scene) {
-    const std::size_t last = std::min((block + 1) * SkinRig::block, rig.places.size());
+    const std::size_t first = block * SkinRig::block,
+                      last = std::min(first + SkinRig::block, rig.places.size());
     // Plain pointers let the compiler assume that writing positions changes no size or pointer.
-    const Move *rest = rig.places.data(), *restNormals = rig.placeNormals.data(), *moves = scene.moves.data();
-    Move *carried = scene.carried.data(), *skin = scene.skin.data(), *normals = scene.skinNormals.data();
-    for (std::size_t v = block * SkinRig::block; v < last; ++v) {
+    const Move *rest = rig.places.data(), *moves = scene.moves.data();
+    Move* carried = scene.carried.data();
+    for (std::size_t v = first; v < last; ++v) {
         Move sum = Move::Zero();
         for (const SkinPull& pull : rig.pulls[v]) sum += pull.share * moves[pull.from];
-        if (!shift.empty()) sum.head<3>() += (shift[v] / rig.size).cast<float>();
-        normals[v] = restNormals[v];
-        carried[v] = skin[v] = turns ? blendedPlace(rig, scene, v, sum) : Move(rest[v] + sum);
+        carried[v] = rest[v] + sum;
     }
+    for (std::size_t v = first; v < last && !shift.empty(); ++v)
+        carried[v].head<3>() += (shift[v] / rig.size).cast<float>();
+    for (std::size_t v = first; v < last && turns; ++v) turn(rig, scene, v);
+    std::copy(carried + first, carried + last, scene.skin.data() + first);
 }
 
 void prepareScene(const SkinRig& rig, SkinScene& scene) {
@@ -127,9 +127,10 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
     const bool turns = std::find(scene.atRest.begin(), scene.atRest.end(), false) != scene.atRest.end();
     for (std::size_t b = 0; b < scene.live.size(); ++b) {
         if (!shift.empty()) scene.live[b] |= 2;
-        if (scene.live[b] != 0) placeBlock(rig, b, turns, shift, scene);
+        if (scene.live[b] != 0) placeBlock(rig, b, turns || scene.turned, shift, scene);
         scene.live[b] = (scene.live[b] & 2) / 2;
     }
+    scene.turned = turns;
 }
 
 Eigen::Matrix3f turnOf(const SkinRig& rig, const SkinScene& scene, std::size_t v) {

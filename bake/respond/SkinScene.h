@@ -25,6 +25,7 @@ struct SkinScene {
     std::vector<Pose> local;       ///< #bodies: motions since rest, run-time lengths
     std::vector<DualPose> frames;  ///< #frames: motion since rest; unset where atRest
     std::vector<bool> atRest;      ///< #frames
+    bool turned = false;           ///< some frame is not at rest
     std::vector<Move> surface;     ///< vertices of all bodies, in the bodies' rest frames
     std::vector<Move> normals;     ///< of these vertices, unit
     std::vector<Move> moves;       ///< displacement of these vertices since rest by contraction and swelling
