@@ -59,8 +59,8 @@ void eachVertex(const SkinRig& rig, const SkinRow& row, const What& what) {
 } // namespace
 
 SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
-    : rig_(rig), clock_(clock), pushes_(rig.foundation), turnLimit_(rig), planeOf_(rig.rows.size(), 0),
-      waitingOf_(rig.rows.size(), 0), pushed_(rig.blocks(), 0), displaced_(rig.places.size(), 0) {
+    : rig_(rig), clock_(clock), pushes_(rig), turnLimit_(rig), planeOf_(rig.rows.size(), 0),
+      waitingOf_(rig.rows.size(), 0) {
     std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
     for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
         eachVertex(rig, rig.rows[r], [&](std::uint32_t v) {
@@ -96,46 +96,16 @@ bool SkinContactSolver::mayBeViolated(const SkinScene& scene, const Waiting& row
            (constrainedPoint(scene, row.plane) - row.place).squaredNorm() > row.free * row.free;
 }
 
-void SkinContactSolver::undoPushes(SkinScene& scene) {
-    for (std::size_t b = 0; b < pushed_.size(); ++b) {
-        if (pushed_[b] == 0) continue;
-        pushed_[b] = 0;
-        const std::size_t last = std::min((b + 1) * SkinRig::block, displaced_.size());
-        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
-            scene.skin[v] = scene.carried[v];
-            displaced_[v] = 0;
-        }
-    }
-}
-
-/// Finds which vertices contacts have displaced, and the largest displacement.
-void SkinContactSolver::findDisplaced(const SkinScene& scene) {
-    constexpr float still = settled * settled;
-    float farthest = 0;
-    for (std::size_t b = 0; b < pushed_.size(); ++b) {
-        if (pushed_[b] == 0) continue;
-        const std::size_t last = std::min((b + 1) * SkinRig::block, displaced_.size());
-        const Move *skin = scene.skin.data(), *carried = scene.carried.data();
-        char* displaced = displaced_.data();
-        for (std::size_t v = b * SkinRig::block; v < last; ++v) {
-            const float squared = (skin[v] - carried[v]).squaredNorm();
-            displaced[v] = squared > still;
-            farthest = std::max(farthest, squared);
-        }
-    }
-    farthest_ = std::sqrt(farthest);
-}
-
 /// Whether contacts have displaced any vertex of a plane.
 bool SkinContactSolver::displaced(const SkinPlane& plane) const {
     bool any = false;
-    for (int k = 0; k < plane.vertices; ++k) any = any || displaced_[plane.vertex[k]];
+    for (int k = 0; k < plane.vertices; ++k) any = any || pushes_.displaced(plane.vertex[k]);
     return any;
 }
 
 bool SkinContactSolver::displaced(const SkinRow& row) const {
     bool any = false;
-    eachVertex(rig_, row, [&](std::uint32_t v) { any = any || displaced_[v]; });
+    eachVertex(rig_, row, [&](std::uint32_t v) { any = any || pushes_.displaced(v); });
     return any;
 }
 
@@ -228,8 +198,8 @@ float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
     for (std::size_t k = 0, count = waiting_.size(); k < count; ++k)
         if (planeOf_[waitingRows_[k]] == 0 && mayBeViolated(scene, waiting_[k]))
             query(scene, waitingRows_[k]);
-    for (std::size_t b = 0; b < pushed_.size(); ++b) {
-        if (pushed_[b] == 0) continue;
+    for (std::size_t b = 0; b < blockRows_.size(); ++b) {
+        if (!pushes_.reaches(b)) continue;
         for (const std::uint32_t r : blockRows_[b])
             if (waitingOf_[r] == 0 && displaced(rig_.rows[r]) && mayTouch(rig_, scene, rig_.rows[r]))
                 query(scene, r);
@@ -250,7 +220,7 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
             addDeepest();
             pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
             applied_ = planes_;
-            pushing = apply(scene, applied_);
+            pushing = pushes_.apply(applied_, scene);
         }
         const float lack = queryDisplaced(scene), now = std::max(lack, deepestViolation());
         if (now < least) {
@@ -261,24 +231,12 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         last = lack;
         const int rounds = now > unseen ? mostRounds : usualRounds;
         if (round < rounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
+        const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         // Where bones press from two sides the last result may be worse than an earlier one.
-        return limited(scene, now > least ? apply(scene, best_) : pushing);
+        if (now > least) pushing = pushes_.apply(best_, scene);
+        turnLimit_.limit(scene, pushes_);
+        return pushing;
     }
-}
-
-/// The result: what contacts have displaced, but for what they would turn over.
-std::size_t SkinContactSolver::limited(SkinScene& scene, std::size_t pushing) {
-    const SkinClock::Scope scope(clock_, SkinPart::Pushes);
-    if (turnLimit_.limit(scene, pushes_, pushed_)) findDisplaced(scene);
-    return pushing;
-}
-
-/// Displaces the carried skin by the pushes of these planes. Returns how many push.
-std::size_t SkinContactSolver::apply(SkinScene& scene, std::span<const SkinPlane> planes) {
-    undoPushes(scene);
-    const std::size_t pushing = pushes_.apply(planes, scene.skin, pushed_);
-    findDisplaced(scene);
-    return pushing;
 }
 
 } // namespace tss

@@ -14,16 +14,16 @@ public:
     SkinContactSolver(const SkinRig& rig, SkinClock& clock);
 
     /// Moves all vertices displaced by contacts back to where muscles and bones carry them.
-    void undoPushes(SkinScene& scene);
+    void undoPushes(SkinScene& scene) { pushes_.undo(scene); }
 
     /// Pushes the skin of a scene, which must be as muscles and bones carry it. Returns how many planes push.
     std::size_t push(SkinScene& scene);
 
     /// Largest displacement by the last push(), run-time length; of no meaning where no plane pushes.
-    float farthest() const { return farthest_; }
+    float farthest() const { return pushes_.farthest(); }
 
     /// Whether contacts may have displaced vertices of a block.
-    bool pushed(std::size_t block) const { return pushed_[block] != 0; }
+    bool pushed(std::size_t block) const { return pushes_.reaches(block); }
 
 private:
     /// A row that was queried in this update, and of which no plane was made.
@@ -49,12 +49,9 @@ private:
     bool mayBeViolated(const SkinScene& scene, const Waiting& row) const;
     bool displaced(const SkinPlane& plane) const;
     bool displaced(const SkinRow& row) const;
-    void findDisplaced(const SkinScene& scene);
     std::uint64_t selectionKey(const SkinRow& row, const SkinPlane& plane) const;
     void addPlane(std::uint32_t r, const SkinPlane& plane);
     void addDeepest();
-    std::size_t apply(SkinScene& scene, std::span<const SkinPlane> planes);
-    std::size_t limited(SkinScene& scene, std::size_t pushing);
     float deepestViolation() const;
 
     const SkinRig& rig_;
@@ -70,9 +67,6 @@ private:
     std::vector<Waiting> waiting_;
     std::vector<std::uint32_t> waitingRows_; ///< row of each of waiting_
     std::vector<std::uint32_t> waitingOf_;   ///< #rows: 1 + its index in waiting_, 0: none
-    std::vector<char> pushed_;               ///< #blocks: contacts may have displaced vertices of it
-    std::vector<char> displaced_;            ///< #touched: contacts have displaced the vertex
-    float farthest_ = 0;                     ///< largest of these displacements, run-time length
     Lists<std::uint32_t> blockRows_;         ///< per block: rows about its vertices
 };
 

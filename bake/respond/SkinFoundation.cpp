@@ -145,7 +145,7 @@ Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
 } // namespace
 
 std::size_t SkinFoundation::bytes() const {
-    return weights.bytes() + columns.bytes() + vertices.bytes();
+    return weights.bytes() + columns.bytes();
 }
 
 SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
@@ -175,15 +175,11 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
     float peak = 0;
     for (const auto& column : columns)
         for (const auto& entry : column) peak = std::max(peak, entry.second);
-    std::vector<std::vector<SkinEntry>> verticesOf(at.size());
-    for (std::uint32_t v = 0; v < weights.size(); ++v) {
-        for (const auto& [node, weight] : weights[v]) {
+    for (const auto& list : weights) {
+        for (const auto& [node, weight] : list)
             foundation.weights.push_back({node, static_cast<float>(weight)});
-            verticesOf[node].push_back({v, static_cast<float>(weight)});
-        }
         foundation.weights.endList();
     }
-    foundation.vertices = Lists<SkinEntry>(verticesOf);
     for (const auto& column : columns) {
         for (const auto& [node, value] : column) foundation.columns.push_back({node, value / peak});
         foundation.columns.endList();

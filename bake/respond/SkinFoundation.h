@@ -23,10 +23,9 @@ constexpr double columnReach = 7;
 struct SkinFoundation {
     double length = 0; ///< l, in the units of the skin that it was made for
     std::size_t nodes = 0;
-    Lists<SkinEntry> weights;  ///< per vertex: nodes and weights, sum 1; none for vertices that never move
-    Lists<SkinEntry> columns;  ///< per node: column of the inverse over nodes, scaled so that the largest
-                               ///< entry of all is 1; empty for nodes that nothing pushes
-    Lists<SkinEntry> vertices; ///< per node: the vertices that it is interpolated to (transpose of weights)
+    Lists<SkinEntry> weights; ///< per vertex: nodes and weights, sum 1; none for vertices that never move
+    Lists<SkinEntry> columns; ///< per node: column of the inverse over nodes, scaled so that the largest
+                              ///< entry of all is 1; empty for nodes that nothing pushes
 
     std::size_t bytes() const;
 };

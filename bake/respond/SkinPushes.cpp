@@ -13,42 +13,28 @@ constexpr float regularisation = 0.003f;
 
 } // namespace
 
-SkinPushes::SkinPushes(const SkinFoundation& foundation)
-    : foundation_(foundation), lastPlane_(foundation.nodes, none), dense_(foundation.nodes, 0),
-      stamp_(foundation.nodes, 0), nodes_(foundation.nodes, Move::Zero()) {
-    clear();
-}
+SkinPushes::SkinPushes(const SkinRig& rig)
+    : rig_(rig), lastPlane_(rig.foundation.nodes, none), sums_(rig.foundation.nodes, 0), couplings_(0, 0),
+      nodes_(rig.foundation.nodes, Move::Zero()), reached_(rig.blocks(), 0),
+      displaced_(rig.places.size(), 0) {}
 
 /// Computes weights_ and column_ of the new planes.
 void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
-    const SkinFoundation& f = foundation_;
-    const auto collect = [&](Lists<SkinEntry>& out) {
-        for (const std::uint32_t n : touched_) {
-            out.push_back({n, dense_[n]});
-            dense_[n] = 0;
-        }
+    const SkinFoundation& f = rig_.foundation;
+    const auto takeInto = [&](Lists<SkinEntry>& out) {
+        sums_.take([&](std::uint32_t node, float sum) { out.push_back({node, sum}); });
         out.endList();
-        touched_.clear();
-        ++round_;
     };
-    const auto add = [&](std::uint32_t n, float value) {
-        if (stamp_[n] != round_) {
-            stamp_[n] = round_;
-            touched_.push_back(n);
-        }
-        dense_[n] += value;
-    };
-    ++round_;
     for (const SkinPlane& plane : planes.subspan(self_.size())) {
         for (int k = 0; k < plane.vertices; ++k)
             for (const auto& [node, weight] : f.weights[plane.vertex[k]])
                 // A node without a column cannot be pushed. Leaving out its weight keeps the matrix
                 // symmetric.
-                if (!f.columns[node].empty()) add(node, plane.weight[k] * weight);
-        collect(weights_);
+                if (!f.columns[node].empty()) sums_[node] += plane.weight[k] * weight;
+        takeInto(weights_);
         for (const SkinEntry& weight : weights_[weights_.size() - 1])
-            for (const auto& [node, move] : f.columns[weight.index]) add(node, weight.value * move);
-        collect(column_);
+            for (const auto& [node, move] : f.columns[weight.index]) sums_[node] += weight.value * move;
+        takeInto(column_);
     }
 }
 
@@ -56,29 +42,20 @@ void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
 /// blocks of coupling_ anew.
 void SkinPushes::addCouplings() {
     const std::size_t count = weights_.size();
-    sums_.resize(count, 0);
-    summed_.resize(count, 0);
-    std::vector<std::uint32_t> coupled;
+    couplings_.resize(count);
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
         for (const auto& [node, value] : weights_[r]) {
             nodePlanes_.push_back({r, value, lastPlane_[node]});
             lastPlane_[node] = static_cast<std::uint32_t>(nodePlanes_.size()) - 1;
         }
         for (const auto& [node, move] : column_[r])
-            for (std::uint32_t o = lastPlane_[node]; o != none; o = nodePlanes_[o].previous) {
-                const NodePlane& other = nodePlanes_[o];
-                if (!summed_[other.plane]) coupled.push_back(other.plane);
-                summed_[other.plane] = 1;
-                sums_[other.plane] += move * other.weight;
-            }
-        std::sort(coupled.begin(), coupled.end());
-        for (const std::uint32_t s : coupled) {
-            if (s < r && sums_[s] != 0) before_.push_back({s, sums_[s]});
-            if (s < r) sums_[s] = 0;
-            summed_[s] = 0;
-        }
-        coupled.clear();
-        self_.push_back(std::exchange(sums_[r], 0));
+            for (std::uint32_t o = lastPlane_[node]; o != none; o = nodePlanes_[o].previous)
+                couplings_[nodePlanes_[o].plane] += move * nodePlanes_[o].weight;
+        self_.push_back(couplings_.at(r));
+        std::ranges::sort(couplings_.places());
+        couplings_.take([&](std::uint32_t s, float sum) {
+            if (s < r && sum != 0) before_.push_back({s, sum});
+        });
         before_.endList();
     }
     // The transpose of before_: per plane its couplings with planes of higher index.
@@ -180,45 +157,48 @@ void SkinPushes::solve(std::span<SkinPlane> planes, std::span<const Move> base, 
     for (int done = 0; done < sweeps && sweep(planes, done % 2 != 0) > settled;) ++done;
 }
 
-std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, std::span<Move> places,
-                              std::span<char> blocks) {
+std::size_t SkinPushes::apply(std::span<const SkinPlane> planes, SkinScene& scene) {
     std::size_t pushing = 0;
-    ++round_;
+    nodes_.take([](std::uint32_t, const Move&) {});
     for (std::size_t r = 0; r < planes.size(); ++r) {
         if (!(planes[r].push > 0)) continue;
         ++pushing;
         Move along = Move::Zero();
         along.head<3>() = planes[r].push * planes[r].normal;
-        for (const auto& [n, value] : column_[r]) {
-            if (stamp_[n] != round_) {
-                stamp_[n] = round_;
-                touched_.push_back(n);
-                nodes_[n].setZero();
-            }
-            nodes_[n] += value * along;
-        }
+        for (const auto& [node, value] : column_[r]) nodes_[node] += value * along;
     }
-    std::sort(touched_.begin(), touched_.end());
-    moved_.swap(touched_);
-    touched_.clear();
-    displace(places, blocks);
+    displace(scene);
     return pushing;
 }
 
-void SkinPushes::moveNode(std::uint32_t node, const Move& move) {
-    nodes_[node] = move;
-    if (std::exchange(stamp_[node], round_) != round_)
-        moved_.insert(std::ranges::lower_bound(moved_, node), node);
+void SkinPushes::undo(SkinScene& scene) {
+    for (std::size_t b = 0; b < reached_.size(); ++b) {
+        if (!std::exchange(reached_[b], 0)) continue;
+        const auto [first, last] = rig_.verticesOf(b);
+        std::copy(scene.carried.begin() + first, scene.carried.begin() + last, scene.skin.begin() + first);
+        std::fill(displaced_.begin() + first, displaced_.begin() + last, 0);
+    }
 }
 
-void SkinPushes::displace(std::span<Move> places, std::span<char> blocks) const {
-    for (const std::uint32_t n : moved_) {
-        const Move move = nodes_[n];
-        for (const auto& [vertex, weight] : foundation_.vertices[n]) {
-            places[vertex] += weight * move;
-            blocks[vertex / SkinRig::block] = 1;
+void SkinPushes::displace(SkinScene& scene) {
+    undo(scene);
+    for (const std::uint32_t node : nodes_.places())
+        for (const std::uint32_t b : rig_.nodeBlocks[node]) reached_[b] = 1;
+    float farthest = 0;
+    for (std::size_t b = 0; b < reached_.size(); ++b) {
+        if (reached_[b] == 0) continue;
+        const auto [first, last] = rig_.verticesOf(b);
+        for (auto v = first; v < last; ++v) {
+            const Move carried = scene.carried[v];
+            Move place = carried;
+            for (const auto& [node, weight] : rig_.foundation.weights[v]) place += weight * nodes_.at(node);
+            const float squared = (place - carried).squaredNorm();
+            displaced_[v] = squared > settled * settled;
+            farthest = std::max(farthest, squared);
+            scene.skin[v] = place;
         }
     }
+    farthest_ = std::sqrt(farthest);
 }
 
 } // namespace tss

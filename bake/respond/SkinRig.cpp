@@ -132,6 +132,14 @@ void addBlocks(SkinRig& rig) {
     rig.around = Lists<std::uint32_t>(around);
 }
 
+Lists<std::uint32_t> nodeBlocks(const SkinFoundation& foundation) {
+    std::vector<std::set<std::uint32_t>> blocks(foundation.nodes);
+    for (std::size_t v = 0; v < foundation.weights.size(); ++v)
+        for (const SkinEntry& entry : foundation.weights[v])
+            blocks[entry.index].insert(static_cast<std::uint32_t>(v / SkinRig::block));
+    return Lists<std::uint32_t>(blocks);
+}
+
 SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::span<const int> chain,
                 std::uint32_t first) {
     const Muscle& muscle = deformer.muscle();
@@ -219,7 +227,7 @@ Pose SkinRig::local(const Pose& pose) const {
 std::size_t SkinRig::bytes() const {
     std::size_t sum =
         foundation.bytes() + rows.size() * sizeof(SkinRow) + clearances.size() * sizeof(SkinClearance) +
-        pulls.bytes() + frameShares.bytes() + rings.bytes() + around.bytes() +
+        pulls.bytes() + frameShares.bytes() + rings.bytes() + nodeBlocks.bytes() + around.bytes() +
         vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
@@ -256,6 +264,7 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     for (const std::uint32_t v : rig.vertices) firmness.push_back(attachment.firmness[v]);
     rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, anatomy.length / rig.size,
                                     parameters.stretchCompliance, parameters.bendCompliance);
+    rig.nodeBlocks = nodeBlocks(rig.foundation);
     measureRows(rig);
     addTwins(rig, anatomy, indexOf);
     return result;

@@ -123,10 +123,15 @@ struct SkinRig {
     std::vector<SkinClearance> clearances;               ///< of the rows
     std::vector<int> starts;                             ///< start triangles of the rows' queries
     SkinFoundation foundation;
+    Lists<std::uint32_t> nodeBlocks; ///< per node of it: blocks that it moves
 
     /// A pose in the skin's frame, scene units, as the run time has it.
     Pose local(const Pose& pose) const;
     std::size_t blocks() const { return (places.size() + block - 1) / block; }
+    /// The first vertex of a block, and the one after its last.
+    std::pair<std::size_t, std::size_t> verticesOf(std::size_t b) const {
+        return {b * block, std::min((b + 1) * block, places.size())};
+    }
     std::size_t bytes() const;
 };
 

@@ -42,29 +42,17 @@ SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {
     std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
 }
 
-/// Finds which vertices of displaced blocks have moved, and the blocks around them.
-void SkinTurnLimit::findMoved(const SkinScene& scene, std::span<const char> blocks) {
-    moved_.assign(scene.carried.size(), 0);
-    near_.assign(blocks.size(), 0);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-        if (blocks[b] == 0) continue;
-        char any = 0;
-        const std::size_t last = std::min((b + 1) * SkinRig::block, moved_.size());
-        for (std::size_t v = b * SkinRig::block; v < last; ++v)
-            any |= moved_[v] = (scene.skin[v] - scene.carried[v]).squaredNorm() > settled * settled;
-        if (any != 0)
+void SkinTurnLimit::findTriangles(const SkinScene& scene, const SkinPushes& pushes) {
+    near_.assign(rig_.blocks(), 0);
+    for (std::size_t b = 0; b < near_.size(); ++b)
+        if (pushes.reaches(b))
             for (const std::uint32_t around : rig_.around[b]) near_[around] = 1;
-    }
-}
-
-void SkinTurnLimit::findTriangles(const SkinScene& scene, std::span<const char> blocks) {
-    findMoved(scene, blocks);
     beside_.clear();
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::size_t b = 0; b < near_.size(); ++b) {
         if (near_[b] == 0) continue;
         for (std::uint32_t t = firstOf_[b]; t < firstOf_[b + 1]; ++t) {
             const Tri& corners = rig_.triangles[t];
-            if ((moved_[corners[0]] | moved_[corners[1]] | moved_[corners[2]]) == 0) continue;
+            if (std::ranges::none_of(corners, [&](int v) { return pushes.displaced(v); })) continue;
             const Edges edges = edgesOf(scene.carried, corners), rest = edgesOf(rig_.places, corners);
             const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
                                            rest.first.cross(rest.second).normalized();
@@ -103,9 +91,9 @@ void SkinTurnLimit::findWishes(const SkinScene& scene, const SkinPushes& pushes,
     std::ranges::stable_sort(wishes_, {}, &Wish::node);
 }
 
-bool SkinTurnLimit::limit(SkinScene& scene, SkinPushes& pushes, std::span<char> blocks) {
+bool SkinTurnLimit::limit(SkinScene& scene, SkinPushes& pushes) {
     for (int round = 0; round < mostGathering + mostLowering; ++round) {
-        if (round <= mostGathering) findTriangles(scene, blocks); // gathering displaces more of them
+        if (round <= mostGathering) findTriangles(scene, pushes); // gathering displaces more of them
         findWishes(scene, pushes, round < mostGathering);
         if (wishes_.empty()) return round > 0;
         for (auto first = wishes_.begin(); first != wishes_.end();) {
@@ -122,12 +110,7 @@ bool SkinTurnLimit::limit(SkinScene& scene, SkinPushes& pushes, std::span<char> 
             pushes.moveNode(first->node, to + part * (now - to));
             first = last;
         }
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            if (blocks[b] == 0) continue;
-            const std::size_t end = std::min((b + 1) * SkinRig::block, scene.carried.size());
-            for (std::size_t v = b * SkinRig::block; v < end; ++v) scene.skin[v] = scene.carried[v];
-        }
-        pushes.displace(scene.skin, blocks);
+        pushes.displace(scene);
     }
     return true;
 }

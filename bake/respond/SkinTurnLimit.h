@@ -13,9 +13,9 @@ public:
     /// Keeps a reference to the rig.
     explicit SkinTurnLimit(const SkinRig& rig);
 
-    /// Limits the displacements that pushes have just applied to the skin of a scene. blocks: those that they
-    /// may have displaced. Returns whether any has changed.
-    bool limit(SkinScene& scene, SkinPushes& pushes, std::span<char> blocks);
+    /// Limits the displacements that pushes have just applied to the skin of a scene. Returns whether any has
+    /// changed.
+    bool limit(SkinScene& scene, SkinPushes& pushes);
 
 private:
     /// A triangle beside displaced skin that is not turned over as the skin is carried.
@@ -31,15 +31,13 @@ private:
         float part = 1;         ///< of the differences between displacements that the triangle can stand
         Move to = Move::Zero(); ///< what displacements come nearer to
     };
-    void findMoved(const SkinScene& scene, std::span<const char> blocks);
-    void findTriangles(const SkinScene& scene, std::span<const char> blocks);
+    void findTriangles(const SkinScene& scene, const SkinPushes& pushes);
     void findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers);
 
     const SkinRig& rig_;
     std::vector<Beside> beside_;
     std::vector<std::uint32_t> firstOf_; ///< #blocks + 1: first of the triangles whose first corner is in it
-    std::vector<char> moved_;            ///< #touched: pushes have displaced the vertex
-    std::vector<char> near_;             ///< #blocks: first corners of triangles at such vertices are in it
+    std::vector<char> near_; ///< #blocks: first corners of triangles at displaced vertices are in it
     std::vector<Wish> wishes_;
 };
 

@@ -32,8 +32,7 @@ struct Pushed {
 Pushed pushed(const SkinRig& rig, const std::array<Eigen::Vector3f, 2>& ways, float edges) {
     SkinScene scene;
     placeBodies(rig, std::vector<double>{0}, std::vector<Pose>{Pose::Identity()}, {}, scene);
-    SkinPushes pushes(rig.foundation);
-    std::vector<char> blocks(rig.blocks(), 0);
+    SkinPushes pushes(rig);
     std::vector<SkinPlane> planes(2);
     const float edge = static_cast<float>(1 / 16.0 / rig.size), by = edges * edge;
     for (int k = 0; k < 2; ++k) {
@@ -49,7 +48,7 @@ Pushed pushed(const SkinRig& rig, const std::array<Eigen::Vector3f, 2>& ways, fl
         planes[k].level = ways[k].dot(scene.carried[nearest].head<3>()) + by;
     }
     pushes.solve(planes, scene.carried, 60);
-    pushes.apply(planes, scene.skin, blocks);
+    pushes.apply(planes, scene);
     const auto moved = [&] {
         float sum = 0;
         for (const SkinPlane& plane : planes)
@@ -57,7 +56,7 @@ Pushed pushed(const SkinRig& rig, const std::array<Eigen::Vector3f, 2>& ways, fl
         return sum;
     };
     const float before = leastArea(rig, scene), whole = moved();
-    CHECK(SkinTurnLimit(rig).limit(scene, pushes, blocks));
+    CHECK(SkinTurnLimit(rig).limit(scene, pushes));
     return {before, leastArea(rig, scene), moved() / whole};
 }
 
