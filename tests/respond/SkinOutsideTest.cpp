@@ -124,3 +124,31 @@ TEST_CASE("a bone that comes at the rim of a skin edge on presses it back") {
 TEST_CASE("skin that is in a bone at rest goes no deeper into it, whichever way it faces") {
     CHECK(deeperInBall(1.2) < 0.005);
 }
+
+TEST_CASE("where eight joints move at once, each of their ways is looked at wherever it was sampled") {
+    constexpr double radius = 0.1, arm = 1, out = 0.01;
+    constexpr int samples = 16, under = 5; // of them: where the ball comes to the skin, and to it alone
+    const Vec3 axis(0, 0, -radius - arm), start = axis + Vec3(arm, -2.0 * under / samples, 0);
+    const skins::Couple couple = skins::couple(
+        flat(), {rigid(boxMesh({-1, -1, -0.5}, {1, 1, -0.3})), rigid(ballMesh(start, radius, 4))}, 0.01);
+    SkinParameters parameters;
+    parameters.shares = {std::vector<double>(couple.skin.vertices.size(), 1),
+                         std::vector<double>(couple.skin.vertices.size(), 0)};
+    BoneSwing still, way;
+    for (int s = 1; s <= samples; ++s) {
+        const Eigen::AngleAxisd turn(-M_PI / 2 * s / under, Vec3::UnitY());
+        const Pose moved = Eigen::Translation3d(0, 2.0 * s / samples, 0) * Eigen::Translation3d(axis) * turn *
+                           Eigen::Translation3d(-axis);
+        still.emplace_back(2, Pose::Identity());
+        way.push_back({Pose::Identity(), moved});
+    }
+    parameters.together.assign(16, still);
+    parameters.together.back() = way;
+    SkinResponse response(couple.rig(parameters));
+    std::vector<Pose> there = way[under - 1];
+    there[1].pretranslate(out * Vec3::UnitZ());
+    response.update(std::vector<double>{0, 0}, there);
+    double highest = 0;
+    for (const Vec3& x : response.positions()) highest = std::max(highest, x.z());
+    CHECK(highest == Approx(out).margin(0.002));
+}
