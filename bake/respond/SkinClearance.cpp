@@ -55,6 +55,11 @@ Vec3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& ro
     return first;
 }
 
+std::size_t clearancesAtRest(const SkinRig& rig, const SkinRow& row) {
+    const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
+    return row.clearance + (onSkin ? 0 : rig.bodies[row.body].restNode * (row.last - row.first));
+}
+
 void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
     eachOffset(rig, scene, row, [&](std::uint32_t k, const Move& offset) {
         starts[k].offsetAndGap.head<3>() = offset.head<3>();

@@ -18,6 +18,9 @@ Eigen::Vector3f vertexPlace(const SkinScene& scene, const SkinRow& row);
 /// How far such a vertex is from the nearest of the planes of its start triangles, run-time length.
 float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row);
 
+/// Where the clearances of a row's starts at rest are in SkinRig::clearances.
+std::size_t clearancesAtRest(const SkinRig& rig, const SkinRow& row);
+
 /// Sets the offsets of a row's clearances, one per start, by the current scene.
 void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts);
 

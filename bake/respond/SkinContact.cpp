@@ -94,7 +94,7 @@ float entryTrust(float depth, float most) {
 
 /// How the offset between the two sides of a row has changed since rest.
 Vec3f motionSinceRest(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return anchorOffset(rig, scene, row) - row.atRest;
+    return anchorOffset(rig, scene, row) - rig.clearances[clearancesAtRest(rig, row)].offsetAndGap.head<3>();
 }
 
 /// How far a point inside of a muscle can be from a point of its surface that is the nearest: the radius of

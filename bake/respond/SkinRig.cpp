@@ -149,6 +149,7 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, s
     body.triangles = muscle.surface.triangles;
     body.across = trianglesAcross(body.triangles);
     body.nodes = activationNodes(muscle.activationLower, muscle.activationUpper, bodySteps);
+    body.restNode = locate(body.nodes, 0).node;
     body.frame = frame;
     body.chain.assign(chain.begin(), chain.end());
     if (!chain.empty()) body.span = std::make_shared<const MuscleSpan>(deformer, rig.size);

@@ -21,6 +21,7 @@ struct SkinBody {
     std::vector<Tri> triangles;
     std::vector<Tri> across;           ///< per triangle: the neighbour beyond edge (k, k+1), -1: none
     std::vector<double> nodes;         ///< rising activations at which it is tabulated; one: a bone
+    std::size_t restNode = 0;          ///< that of activation 0
     std::vector<Move> rest;            ///< #count vertices at activation 0, in the skin's frame
     std::vector<Move> places, normals; ///< #nodes blocks of #count: vertices and unit normals
     std::vector<float> room; ///< of a muscle, #count: radius of the ball inside that touches it there at rest
@@ -68,12 +69,12 @@ struct SkinClearance {
 /// A possible contact of a vertex with a surface. Queries start from triangles tabulated here rather than
 /// from the last result, so that the response has no history.
 struct SkinRow {
-    SkinContactKind kind = SkinContactKind::SkinOnBody;
     std::uint32_t vertex = 0; ///< of the skin; BodyOnSkin: among those of all bodies
     std::uint32_t body = 0;
     std::uint32_t first = 0,
-                  last = 0;    ///< start triangles of the query: range in SkinRig::starts; the anchor,
-                               ///< the point of the surface that the vertex faces at rest, is in the first
+                  last = 0; ///< start triangles of the query: range in SkinRig::starts; the anchor,
+                            ///< the point of the surface that the vertex faces at rest, is in the first
+    SkinContactKind kind = SkinContactKind::SkinOnBody;
     bool insideAtRest = false; ///< the vertex is on the wrong side of the surface at rest already, and is
                                ///< only kept from getting deeper
     bool fromOutside = false;  ///< SkinOnBody of a bone: that lies before the outer side of the skin at rest,
@@ -84,7 +85,6 @@ struct SkinRow {
     std::uint32_t clearance = 0; ///< first in SkinRig::clearances: one per start, at each node of its muscle,
                                  ///< else at rest
     Eigen::Vector3f facing = Eigen::Vector3f::Zero(); ///< SkinOnBody: unit normal at the anchor at rest
-    Eigen::Vector3f atRest = Eigen::Vector3f::Zero(); ///< anchorOffset() at rest
     float offset = 0; ///< least signed distance to keep, <= 0: the overlap at rest, run-time lengths
 };
 

@@ -77,9 +77,8 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
                 row.weights[k] * scene.normals[at.first + at.triangles[rig.starts[row.first]][k]].head<3>();
         if (row.facing.squaredNorm() > 0) row.facing.normalize();
     }
-    SkinClearance& clearance = rig.clearances[row.clearance];
+    SkinClearance& clearance = rig.clearances[clearancesAtRest(rig, row)];
     measureOffsets(rig, scene, row, &clearance);
-    row.atRest = clearance.offsetAndGap.head<3>();
     row.offset = -1; // so that the query trusts an overlap of any depth
     SkinPlane plane = queryContact(rig, scene, row, 0);
     row.offset = 0;
@@ -97,7 +96,7 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
         if (row.insideAtRest && plane.found) row.offset = std::min(plane.distance, 0.0f);
     } else if (plane.found) {
         row.offset = std::min(plane.distance, 0.0f);
-        clearance.gap() = std::clamp(plane.distance, 0.0f, row.atRest.norm());
+        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.offsetAndGap.head<3>().norm());
     } else if (!body) { // the surface faces another way at rest
         clearance.gap() = heightOverStarts(rig, scene, row);
     }
