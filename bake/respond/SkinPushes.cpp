@@ -38,11 +38,22 @@ void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
     }
 }
 
-/// Computes the couplings of the new planes with all others that constrain a node they move, and builds the
-/// blocks of coupling_ anew.
+void SkinPushes::couple(std::uint32_t r, std::uint32_t s, float coupling) {
+    Row& row = rows_[r];
+    if (row.tail == none || blocks_[row.tail].first != s / 4 * 4) {
+        const auto added = static_cast<std::uint32_t>(blocks_.size());
+        (row.tail == none ? row.head : blocks_[row.tail].next) = added;
+        row.tail = added;
+        blocks_.emplace_back().first = s / 4 * 4;
+    }
+    blocks_[row.tail].coupling[s % 4] = coupling;
+}
+
+/// Computes the couplings of the new planes with all others that constrain a node they move.
 void SkinPushes::addCouplings() {
     const std::size_t count = weights_.size();
     couplings_.resize(count);
+    rows_.resize(count);
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
         for (const auto& [node, value] : weights_[r]) {
             nodePlanes_.push_back({r, value, lastPlane_[node]});
@@ -54,33 +65,10 @@ void SkinPushes::addCouplings() {
         self_.push_back(couplings_.at(r));
         std::ranges::sort(couplings_.places());
         couplings_.take([&](std::uint32_t s, float sum) {
-            if (s < r && sum != 0) before_.push_back({s, sum});
+            if (s >= r || sum == 0) return;
+            couple(r, s, sum);
+            couple(s, r, sum);
         });
-        before_.endList();
-    }
-    // The transpose of before_: per plane its couplings with planes of higher index.
-    std::vector<std::uint32_t> start(count + 1, 0);
-    for (const SkinEntry& entry : before_.items()) ++start[entry.index + 1];
-    for (std::size_t r = 0; r < count; ++r) start[r + 1] += start[r];
-    std::vector<SkinEntry> after(before_.items().size());
-    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-    for (std::uint32_t r = 0; r < count; ++r)
-        for (const auto& [plane, value] : before_[r]) after[next[plane]++] = {r, value};
-    rowStart_.assign(1, 0);
-    coupling_.clear();
-    firstColumn_.clear();
-    for (std::uint32_t r = 0; r < count; ++r) {
-        const auto take = [&](const SkinEntry& entry) {
-            const std::uint32_t first = entry.index / 4 * 4;
-            if (firstColumn_.size() == rowStart_.back() || firstColumn_.back() != first) {
-                firstColumn_.push_back(first);
-                coupling_.push_back(Four::Zero());
-            }
-            coupling_.back()[entry.index - first] = entry.value;
-        };
-        std::ranges::for_each(before_[r], take);
-        std::for_each(after.begin() + start[r], after.begin() + start[r + 1], take);
-        rowStart_.push_back(static_cast<std::uint32_t>(coupling_.size()));
     }
 }
 
@@ -90,7 +78,8 @@ void SkinPushes::clear() {
     weights_.clear();
     column_.clear();
     self_.clear();
-    before_.clear();
+    rows_.clear();
+    blocks_.clear();
 }
 
 /// Sets up the problem for the planes' current normals and levels: demand, matrix and residual.
@@ -106,15 +95,14 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
         for (int k = 0; k < 3; ++k) normals_[k][r] = planes[r].normal[k];
     }
     lack_ = demand_;
-    matrix_.resize(coupling_.size());
     for (std::size_t r = 0; r < count; ++r) {
         const Eigen::Vector3f& normal = planes[r].normal;
-        for (std::uint32_t e = rowStart_[r]; e < rowStart_[r + 1]; ++e) {
-            const std::uint32_t first = firstColumn_[e];
+        for (std::uint32_t b = rows_[r].head; b != none; b = blocks_[b].next) {
+            const std::uint32_t first = blocks_[b].first;
             const Four facing =
                 normal[0] * blockAt(normals_[0], first) +
                 (normal[1] * blockAt(normals_[1], first) + normal[2] * blockAt(normals_[2], first));
-            matrix_[e] = coupling_[e] * facing;
+            blocks_[b].matrix = blocks_[b].coupling * facing;
         }
     }
     for (std::size_t r = 0; r < count; ++r)
@@ -125,10 +113,9 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
 void SkinPushes::addPush(std::size_t r, float change) {
     lack_[r] -= (1 + regularisation) * self_[r] * change;
     float* lack = lack_.data();
-    const Four* matrix = matrix_.data();
-    const std::uint32_t* fours = firstColumn_.data();
-    for (std::uint32_t e = rowStart_[r], end = rowStart_[r + 1]; e < end; ++e)
-        Eigen::Map<Four>(lack + fours[e]) -= matrix[e] * change;
+    const Block* blocks = blocks_.data();
+    for (std::uint32_t b = rows_[r].head; b != none; b = blocks[b].next)
+        Eigen::Map<Four>(lack + blocks[b].first) -= blocks[b].matrix * change;
 }
 
 /// One sweep of projected Gauss-Seidel. Returns the largest displacement that a change of push makes.

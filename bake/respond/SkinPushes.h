@@ -84,6 +84,17 @@ private:
         float weight;           ///< of the node in the plane
         std::uint32_t previous; ///< entry in nodePlanes_, or `none`
     };
+    /// Four columns of a row of the symmetric matrix, without its diagonal.
+    struct Block {
+        Four coupling = Four::Zero();
+        Four matrix;               ///< coupling times the cosine between both normals
+        std::uint32_t first = 0;   ///< column
+        std::uint32_t next = none; ///< of the row, in blocks_
+    };
+    struct Row {
+        std::uint32_t head = none, tail = none; ///< in blocks_
+    };
+    void couple(std::uint32_t r, std::uint32_t s, float coupling);
     void addColumns(std::span<const SkinPlane> planes);
     void addCouplings();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
@@ -99,16 +110,11 @@ private:
     // equal.
     Lists<SkinEntry> weights_; ///< per plane: its weights on nodes
     Lists<SkinEntry> column_;  ///< per plane: displacement of nodes by a push of 1
-    Lists<SkinEntry> before_;  ///< per plane: coupling with planes of lower index (symmetric)
-    std::vector<float> self_;  ///< per plane: coupling with itself
+    std::vector<Row> rows_;    ///< per plane: its couplings with others, columns rising
+    std::vector<Block> blocks_;
+    std::vector<float> self_; ///< per plane: coupling with itself
     std::vector<NodePlane> nodePlanes_;
     std::vector<std::uint32_t> lastPlane_; ///< per node: last entry of its list in nodePlanes_, or `none`
-
-    // The off-diagonal rows of the symmetric matrix, in blocks of four columns.
-    std::vector<std::uint32_t> rowStart_; ///< #planes + 1, into the next three
-    std::vector<Four> coupling_;
-    std::vector<Four> matrix_;               ///< coupling times the cosine between both normals
-    std::vector<std::uint32_t> firstColumn_; ///< of each block
 
     // Per plane; those read in blocks are padded to whole blocks of four.
     std::vector<float> demand_;                 ///< violation before any push (right-hand side), padded

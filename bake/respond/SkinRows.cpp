@@ -44,7 +44,7 @@ bool ofMuscle(const SkinRig& rig, const SkinRow& row) {
     return row.kind != SkinContactKind::SkinOnSkin && !rig.bodies[row.body].bone();
 }
 
-/// Sets the clearance of a muscle's row at one node, which the scene is at.
+/// Sets the clearances of a row at rest or at one node of its muscle, which the scene is at.
 void measureClearance(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
     measureOffsets(rig, scene, row, starts);
     const SkinPlane plane = queryContact(rig, scene, row);
@@ -52,7 +52,7 @@ void measureClearance(const SkinRig& rig, const SkinScene& scene, const SkinRow&
     gap = starts->offsetAndGap.head<3>().norm();
     if (plane.found)
         gap = std::clamp(plane.distance, 0.0f, gap);
-    else if (row.kind == SkinContactKind::BodyOnSkin)
+    else if (row.kind != SkinContactKind::SkinOnBody) // the surface faces another way
         gap = heightOverStarts(rig, scene, row);
 }
 
@@ -94,11 +94,9 @@ void measureAtRest(SkinRig& rig, const SkinScene& scene, SkinRow& row) {
                 ? 0
                 : static_cast<float>(rig.bodies[row.body].locator->nearest(x, infinity).distance);
         if (row.insideAtRest && plane.found) row.offset = std::min(plane.distance, 0.0f);
-    } else if (plane.found) {
-        row.offset = std::min(plane.distance, 0.0f);
-        clearance.gap() = std::clamp(plane.distance, 0.0f, clearance.offsetAndGap.head<3>().norm());
-    } else if (!body) { // the surface faces another way at rest
-        clearance.gap() = heightOverStarts(rig, scene, row);
+    } else {
+        if (plane.found) row.offset = std::min(plane.distance, 0.0f);
+        measureClearance(rig, scene, row, &clearance);
     }
 }
 
