@@ -42,7 +42,8 @@ TEST_CASE("the normals of a skin are those by area, and the same bits by every k
     const std::size_t count = mesh.vertices.size();
     const Lists<std::uint32_t> rings = skinRings(mesh.triangles, count);
     std::vector<Eigen::Vector4f> places(count + 1, Eigen::Vector4f::Zero());
-    for (std::size_t v = 0; v < count; ++v) places[v] << mesh.vertices[v].cast<float>(), 0.01f * static_cast<float>(v);
+    for (std::size_t v = 0; v < count; ++v)
+        places[v] << mesh.vertices[v].cast<float>(), 0.01f * static_cast<float>(v);
     const std::vector<Vec3> expected = skinNormals(mesh);
     std::vector<float> first;
     for (const KernelTarget target : {KernelTarget::Scalar, KernelTarget::Sse2, KernelTarget::Avx2,
