@@ -179,7 +179,7 @@ std::vector<BakeOption> makeBakeOptions() {
          [](BakeOptions& o, Text key, Text text, double) { o.maxSpheres = count(key, text, 1); }},
         {"max-tests",
          "at most so many tests a table where all that may touch are kept: the best tolerance for them "
-         "(default 1000000, of many pairs a share of 20 million; each takes some 240 bytes while it is "
+         "(default 1000000, of many pairs a share of 40 million; each takes some 240 bytes while it is "
          "baked)",
          [](BakeOptions& o, Text key, Text text, double) {
              o.mostTests = static_cast<std::size_t>(count(key, text, 1));
@@ -241,7 +241,7 @@ BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, d
 }
 
 BakeOptions optionsFor(const SceneModel& scene, const Pair& pair) {
-    constexpr std::size_t together = 20'000'000, least = 10'000;
+    constexpr std::size_t together = 40'000'000, least = 10'000;
     BakeOptions options = optionsFor(pair.settings, {}, scene.metersPerUnit);
     if (!pair.settings.contains("max-tests"))
         options.mostTests = std::clamp(together / scene.pairs.size(), least, options.mostTests);

@@ -70,7 +70,7 @@ std::string methodName(const BakeOptions& options);
 /// The options of one pair: the defaults, then the scene's own settings, then those given now.
 BakeOptions optionsFor(const BakeSettings& ofScene, const BakeSettings& given, double metersPerUnit);
 
-/// The options of a pair of the scene, which has many: each may test a share of twenty million pairs of
+/// The options of a pair of the scene, which has many: each may test a share of forty million pairs of
 /// spheres, so that all tables together fit in memory.
 BakeOptions optionsFor(const SceneModel& scene, const Pair& pair);
 

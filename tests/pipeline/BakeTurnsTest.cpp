@@ -138,8 +138,10 @@ TEST_CASE("the pairs of a scene share how many tests they may keep where they ar
     SceneModel scene;
     scene.pairs.resize(1);
     CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 1'000'000);
+    scene.pairs.resize(35);
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 1'000'000);
     scene.pairs.resize(500);
-    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 40'000);
+    CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 80'000);
     scene.pairs.resize(100'000);
     CHECK(optionsFor(scene, scene.pairs[0]).mostTests == 10'000);
     scene.pairs[0].settings["max-tests"] = "123";
