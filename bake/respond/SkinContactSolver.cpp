@@ -10,10 +10,11 @@
 namespace tss {
 namespace {
 
-/// Most rounds of querying, solving and moving: where the skin has moved to there are new contacts, and the
-/// normals of curved surfaces have changed. The more of them only where what is lacking can be seen: in the
-/// crook of an elbow, between two bones, 24 were needed.
-constexpr int usualRounds = 8, mostRounds = 32;
+/// Rounds of querying, solving and moving: where the skin has moved to there are new contacts, and the
+/// normals of curved surfaces have changed. After so many there are as many more only where these have halved
+/// what is lacking: in the crook of an elbow, between two bones, 24 were needed. Where surfaces demand more
+/// than the skin can give, more would only press it flat.
+constexpr int roundsAtATime = 8;
 
 /// Rounds in a row that leave the planes violated no less: they demand more than the skin can give.
 constexpr int mostStalled = 3;
@@ -35,12 +36,14 @@ float drop(SkinPlane& plane) {
 /// where they have slid by `slide` since: without it they would touch again.
 void updatePlane(const SkinPlane& now, const SkinScene& scene, float slide, SkinPlane& plane) {
     const Eigen::Vector3f place = constrainedPoint(scene, plane);
-    if (now.found) {
+    const float slid = (place - plane.place).norm();
+    // What is clear by more than it has slid along a surface has come past its edge.
+    if (now.found && !(plane.push > 0 && now.gap > slid)) {
         plane.gap = now.gap;
         plane.normal = now.normal;
         plane.place = place;
         plane.level = plane.normal.dot(place) - plane.gap;
-    } else if (plane.push > 0 && (place - plane.place).norm() < slide) {
+    } else if (plane.push > 0 && slid < slide) {
         plane.gap = 0;
     } else {
         drop(plane);
@@ -211,7 +214,7 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
     clear();
     queryAll(scene);
     if (violated_.empty()) return 0;
-    float last = std::numeric_limits<float>::max(), least = last;
+    float last = std::numeric_limits<float>::max(), least = last, before = last;
     best_.clear();
     for (int round = 1, stalled = 0;; ++round) {
         std::size_t pushing = 0;
@@ -229,8 +232,10 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         }
         stalled = lack < last ? 0 : stalled + 1;
         last = lack;
-        const int rounds = now > unseen ? mostRounds : usualRounds;
-        if (round < rounds && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
+        const bool whole = round % roundsAtATime == 0;
+        const bool more = !whole || least <= before / 2;
+        if (whole) before = least;
+        if (more && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
         const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         // Where bones press from two sides the last result may be worse than an earlier one.
         if (now > least) pushing = pushes_.apply(best_, scene);

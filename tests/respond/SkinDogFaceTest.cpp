@@ -238,7 +238,7 @@ TEST_CASE("all facial muscles of the dog move one skin of 29,000 vertices", "[.l
               << worst.longest << ", flipped at most " << worst.flipped << '\n';
     CHECK(largestMove(skin) > 1 * mm);
     CHECK(largestMove(skin) < 20 * mm);
-    CHECK(worst.shortest > 0.45); // 0.61 with no more than eight rounds of contact
+    CHECK(worst.shortest > 0.6); // 0.48 with rounds of contact that lower nothing
     CHECK(worst.longest < 1.6);
     CHECK(worst.flipped == 0);
     CHECK(skin.update({}).rest);
