@@ -1,6 +1,7 @@
 #include "bake/respond/SkinFollowMeasure.h"
 
 #include "bake/base/Parallel.h"
+#include "bake/respond/SkinScene.h"
 
 #include <algorithm>
 
@@ -17,22 +18,6 @@ double percentile(std::vector<double>& values, double share) {
     const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + place, values.end());
     return values[static_cast<std::size_t>(place)];
-}
-
-/// How the shares of the frames have turned each touched vertex.
-std::vector<Eigen::Matrix3d> turnsOf(const SkinRig& rig, std::span<const Pose> poses) {
-    std::vector<DualPose> frames(rig.frames);
-    for (std::size_t m = 0; m < poses.size(); ++m)
-        if (rig.bodies[m].frame >= 0)
-            frames[static_cast<std::size_t>(rig.bodies[m].frame)] = DualPose(poses[m]);
-    std::vector<Eigen::Matrix3d> turns;
-    for (std::size_t v = 0; v < rig.places.size(); ++v) {
-        PoseBlend blend;
-        for (const auto& [frame, share] : rig.frameShares[v])
-            blend.add(static_cast<double>(share), frames[frame]);
-        turns.push_back(blend.pose().linear());
-    }
-    return turns;
 }
 
 } // namespace
@@ -110,12 +95,16 @@ SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<c
         result.shortest = percentile(edges, 0.01);
         result.longest = percentile(edges, 0.99);
     }
-    const std::vector<Eigen::Matrix3d> turns = turnsOf(rig_, poses);
+    std::vector<Pose> all(poses.begin(), poses.end());
+    all.resize(rig_.bodies.size(), Pose::Identity());
+    SkinScene scene;
+    placeBodies(rig_, std::vector<double>(all.size(), 0), all, {}, scene);
     for (const Tri& t : rig_.triangles) {
         const auto normal = [&](const auto& x) -> Vec3 {
             return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
         };
-        result.turnedOver += normal(positions).dot(turns[t[0]] * normal(rig_.rest)) < 0;
+        result.turnedOver +=
+            normal(positions).dot(turnOf(rig_, scene, t[0]).cast<double>() * normal(rig_.rest)) < 0;
     }
     return result;
 }

@@ -108,60 +108,50 @@ bool facesFromOutside(const TriangleMesh& bone, const NearestPoint& near, const 
 
 } // namespace
 
-std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table) {
+void addBodyRows(SkinRig& rig, const SkinAnatomy& anatomy, const SkinTable& table) {
     const Table& t = table.table;
-    std::vector<ContactCandidate> result;
-    std::vector<bool> meets(anatomy.bodies.size());
-    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
-    for (std::size_t i = 0; i < t.a.size(); ++i) {
-        const std::uint32_t v = anatomy.first[table.skinVertices[i]];
-        std::fill(meets.begin(), meets.end(), false);
+    std::vector<SkinRow> rows;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known; // vertex, body
+    for (std::size_t i = 0; i < t.a.size(); ++i)
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
-            meets[table.muscleOf[t.columns[k]]] = true;
-        for (std::uint32_t m = 0; m < meets.size(); ++m)
-            if (meets[m] && known.emplace(v, m).second) result.push_back({v, m, false, false, {}});
+            known.emplace(anatomy.first[table.skinVertices[i]], table.muscleOf[t.columns[k]]);
+    for (const auto& [vertex, body] : known) {
+        rows.emplace_back().vertex = vertex;
+        rows.back().body = body;
     }
-    parallelFor(result.size(), [&](std::size_t k) {
-        ContactCandidate& candidate = result[k];
-        const Vec3 &x = anatomy.skin.vertices[candidate.vertex], &own = anatomy.normals[candidate.vertex];
-        const ClosestPointQuery& locator = anatomy.locators[candidate.body];
-        candidate.inside = anatomy.inside[candidate.body][candidate.vertex];
-        const MuscleDeformer& body = *anatomy.bodies[candidate.body];
-        candidate.nearest = locator.nearest(x, anatomy.size);
-        if (body.rigid() && candidate.nearest.triangle >= 0)
-            candidate.fromOutside = facesFromOutside(body.muscle().surface, candidate.nearest, x, own);
-        if (candidate.nearest.triangle < 0 || body.rigid()) return;
+    std::vector<int> start(rows.size(), -1);
+    parallelFor(rows.size(), [&](std::size_t k) {
+        SkinRow& row = rows[k];
+        const Vec3 &x = anatomy.skin.vertices[row.vertex], &own = anatomy.normals[row.vertex];
+        const MuscleDeformer& body = *anatomy.bodies[row.body];
+        const TriangleMesh& surface = body.muscle().surface;
+        const NearestPoint near = anatomy.locators[row.body].nearest(x, anatomy.size);
+        if (near.triangle < 0) return;
+        row.insideAtRest = anatomy.inside[row.body][row.vertex];
+        row.fromOutside = body.rigid() && facesFromOutside(surface, near, x, own);
+        row.weights = near.weights.cast<float>();
         Vec3 smooth = Vec3::Zero();
         for (int c = 0; c < 3; ++c)
-            smooth += candidate.nearest.weights[c] *
-                      anatomy.surfaceNormals[candidate.body]
-                                            [body.muscle().surface.triangles[candidate.nearest.triangle][c]];
-        // Skin beyond the muscle's far side does not lie on the muscle.
-        if (smooth.dot(own) <= 0 && !candidate.inside) candidate.nearest.triangle = -1;
+            smooth += near.weights[c] * anatomy.surfaceNormals[row.body][surface.triangles[near.triangle][c]];
+        // Skin beyond a muscle's far side does not lie on the muscle.
+        if (body.rigid() || row.insideAtRest || smooth.dot(own) > 0) start[k] = near.triangle;
     });
-    std::erase_if(result, [](const ContactCandidate& candidate) { return candidate.nearest.triangle < 0; });
-    return result;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (start[k] < 0) continue;
+        rows[k].first = static_cast<std::uint32_t>(rig.starts.size());
+        rows[k].last = rows[k].first + 1;
+        rig.starts.push_back(start[k]);
+        rig.rows.push_back(rows[k]);
+    }
 }
 
-std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
-                          const std::vector<std::uint32_t>& indexOf) {
+std::vector<bool> addRows(SkinRig& rig, const std::vector<std::uint32_t>& indexOf) {
     std::vector<bool> pushed(rig.places.size(), false);
-    for (const ContactCandidate& candidate : candidates) {
-        SkinRow row;
-        row.vertex = indexOf[candidate.vertex];
-        row.body = candidate.body;
-        row.insideAtRest = candidate.inside;
-        row.fromOutside = candidate.fromOutside;
-        row.first = static_cast<std::uint32_t>(rig.starts.size());
-        rig.starts.push_back(candidate.nearest.triangle);
-        row.last = row.first + 1;
-        row.weights = candidate.nearest.weights.cast<float>();
-        rig.rows.push_back(row);
+    for (SkinRow& row : rig.rows) {
+        row.vertex = indexOf[row.vertex];
         pushed[row.vertex] = true;
     }
-    std::sort(rig.rows.begin(), rig.rows.end(), [](const SkinRow& a, const SkinRow& b) {
-        return std::pair(a.vertex, a.body) < std::pair(b.vertex, b.body);
-    });
+    std::ranges::sort(rig.rows, {}, [](const SkinRow& row) { return std::pair(row.vertex, row.body); });
     const SkinContactSearch found = searchContacts(rig);
     addRowsOf(rig, found.bodies, SkinContactKind::BodyOnSkin, pushed);
     addRowsOf(rig, found.folds, SkinContactKind::SkinOnSkin, pushed);

@@ -5,22 +5,14 @@
 // The steps of makeSkinRig() that make its rows of contact.
 namespace tss {
 
-/// A skin vertex and a body that the table has a test of, and that face each other at rest.
-struct ContactCandidate {
-    std::uint32_t vertex = 0; ///< of the skin mesh
-    std::uint32_t body = 0;
-    bool inside = false;      ///< the vertex is inside of the body at rest
-    bool fromOutside = false; ///< see SkinRow
-    NearestPoint nearest;     ///< of the body's surface at rest
-};
+/// Fills rows and starts by the skin vertices and bodies that the table has a test of, and that face each
+/// other at rest. SkinRow::vertex is of the skin mesh until addRows().
+void addBodyRows(SkinRig& rig, const SkinAnatomy& anatomy, const SkinTable& table);
 
-std::vector<ContactCandidate> contactCandidates(const SkinAnatomy& anatomy, const SkinTable& table);
-
-/// Fills rows and starts: skin vertices against bodies, from the candidates; body vertices against the skin;
-/// with self contact skin vertices against other parts of the skin. The latter two are found by
-/// searchContacts(). Returns, #touched, which vertices contacts may push.
-std::vector<bool> addRows(SkinRig& rig, const std::vector<ContactCandidate>& candidates,
-                          const std::vector<std::uint32_t>& indexOf);
+/// Adds the rows of body vertices against the skin, and with self contact of skin vertices against other
+/// parts of the skin, as searchContacts() finds them. indexOf: index of each vertex of the mesh among touched
+/// ones. Returns, #touched, which vertices contacts may push.
+std::vector<bool> addRows(SkinRig& rig, const std::vector<std::uint32_t>& indexOf);
 
 /// A mesh in double precision.
 TriangleMesh meshOf(const std::vector<Move>& vertices, const std::vector<Tri>& triangles);
