@@ -75,8 +75,8 @@ CellMotion::CellMotion(const MotionRates& rates, const Cell& cell) : dofs_(rates
         Axis& axis = axes_[k];
         centre_[k] = cell.lower[k] + 0.5 * (cell.upper[k] - cell.lower[k]);
         // Measured from the rounded centre, so that the cell is covered to the last bit.
-        axis.half = std::max(cell.upper[k] - centre_[k], centre_[k] - cell.lower[k]);
-        axis.outerTurn = turned;
+        const double half = std::max(cell.upper[k] - centre_[k], centre_[k] - cell.lower[k]);
+        axis = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), half, turned, 0, 0, 0, 0, 0, false};
         switch (dof.kind) {
         case DofKind::Rotation:
             axis.turn = prefix.linear() * dof.axis;

@@ -74,18 +74,19 @@ public:
     double relativeRemainder() const { return relativeRemainder_; }
 
 private:
+    /// Without values of its own: most of maxDofs are not used, and cells are many.
     struct Axis {
-        Vec3 turn = Vec3::Zero();   ///< angular rate vector at q0, in A's frame
-        Vec3 slide = Vec3::Zero();  ///< linear rate at q0
-        Vec3 origin = Vec3::Zero(); ///< a point on the axis, or the centre of turning
-        double half = 0;
-        double turnRate = 0;     ///< largest |turn| in the cell
-        double slideRate = 0;    ///< largest |slide| in the cell
-        double chord = 0;        ///< 2 sin(turnRate half / 2), at most 2
-        double turnChange = 0;   ///< largest |turn - turn at q0| across knots
-        double slideChange = 0;  ///< largest |slide - slide at q0| across knots
-        double outerTurn = 0;    ///< sum of turnRate half over the DOFs nearer to A
-        bool aboutPoint = false; ///< distances are to the origin, not to the axis
+        Vec3 turn;          ///< angular rate vector at q0, in A's frame
+        Vec3 slide;         ///< linear rate at q0
+        Vec3 origin;        ///< a point on the axis, or the centre of turning
+        double half;        ///< half width of the cell
+        double outerTurn;   ///< sum of turnRate half over the DOFs nearer to A
+        double turnRate;    ///< largest |turn| in the cell
+        double slideRate;   ///< largest |slide| in the cell
+        double chord;       ///< 2 sin(turnRate half / 2), at most 2
+        double turnChange;  ///< largest |turn - turn at q0| across knots
+        double slideChange; ///< largest |slide - slide at q0| across knots
+        bool aboutPoint;    ///< distances are to the origin, not to the axis
     };
 
     void addPath(const Dof& dof, const std::vector<MotionRates::Segment>& segments, const Pose& prefix,
@@ -93,8 +94,8 @@ private:
     double distance(const Axis& axis, const Vec3& x) const;
 
     std::size_t dofs_;
-    std::array<double, maxDofs> centre_{};
-    std::array<Axis, maxDofs> axes_;
+    std::array<double, maxDofs> centre_; ///< #dofs_
+    std::array<Axis, maxDofs> axes_;     ///< #dofs_
     Pose pose_;
     double relativeMove_ = 0, relativeRemainder_ = 0;
 };
