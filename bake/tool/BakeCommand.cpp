@@ -132,14 +132,21 @@ void endIncomplete(const BakeArguments& arguments, const KeptParts& parts, const
                    {"notes", parts.notes()}});
     if (parts.signal()) fmt::print(stderr, "tss: interrupted\n");
     const bool late = arguments.request.until.comes() && parts.missing().size() > parts.failures().size();
-    if (late) fmt::print(stderr, "tss: the budget of {:g} s ended first\n", *arguments.budget);
+    double budget = arguments.budget.value_or(0);
+    if (late) fmt::print(stderr, "tss: the budget of {:g} s ended first\n", budget);
+    if (late && !parts.bakedAny()) {
+        budget *= 2;
+        fmt::print(stderr,
+                   "tss: nothing was baked in that time: expected a longer one, --budget {:g} or more\n",
+                   budget);
+    }
     const std::vector<std::string>& missing = parts.missing();
     constexpr std::size_t most = 8; // that are named; --json names all
     fmt::print(stderr, "tss: not baked: {}\n", firstOf(missing, most));
     if (!written.empty())
         fmt::print(stderr, "tss: what is done is in {}; go on with\n  tss bake {} -o {}{}\n", written,
                    shellWord(written), shellWord(arguments.output),
-                   late ? fmt::format(" --budget {:g}", *arguments.budget) : "");
+                   late ? fmt::format(" --budget {:g}", budget) : "");
 }
 
 /// Whether a joint has little room to move: the meshes touch at most poses, or at rest and at more than a

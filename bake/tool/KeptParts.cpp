@@ -94,6 +94,7 @@ void KeptParts::run(BakeRequest request) {
 }
 
 void KeptParts::done(const PairReport& report) {
+    bakedAny_ = true;
     times_[report.path] = report.seconds;
     for (const std::string& note : report.notes) {
         console_.say(report.path + ": " + note);

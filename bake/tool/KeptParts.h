@@ -26,6 +26,7 @@ public:
     int signal() const { return signal_; } ///< that ended it; 0: none
     const std::vector<InputError>& failures() const { return failures_; }
     const std::vector<std::string>& missing() const { return missing_; } ///< paths of those without a table
+    bool bakedAny() const { return bakedAny_; }                          ///< by this bake
     const Json& notes() const { return notes_; }
     const BakeTimes& times() const { return times_; }
 
@@ -48,7 +49,8 @@ private:
     std::vector<std::string> missing_;
     int signal_ = 0;
     bool holds_ = false; ///< signals are noted
-    bool kept_ = false;  ///< the incomplete file is this bake's own
+    bool bakedAny_ = false;
+    bool kept_ = false; ///< the incomplete file is this bake's own
     Stopwatch sinceKept_;
     double nextKept_; ///< seconds after which it is written again
 };

@@ -153,6 +153,15 @@ TEST_CASE("a bake of many pairs whose budget ends keeps what was reached, whatev
     const Ran verified = runTss("verify out.incomplete.tss", folder.path());
     CHECK(verified.exit == 0);
     CHECK(verified.out.find("of 1 pair more nothing is known: not baked yet") != std::string::npos);
+
+    // Where nothing comes to its end, more time is asked for.
+    const Ran none = runTss("bake in.tss -o none.tss --budget 0.001", folder.path());
+    CHECK(none.exit == 1);
+    CHECK(none.err.find("expected a longer one, --budget 0.002 or more\n") != std::string::npos);
+    const Ran stuck = runTss("bake out.incomplete.tss -o out.tss --budget 0.5", folder.path());
+    CHECK(stuck.err.find("go on with\n  tss bake out.incomplete.tss -o out.tss --budget 1\n") !=
+          std::string::npos);
+
     const Ran on = runTss("bake out.incomplete.tss -o out.tss --tolerance 0.5 --budget 1000", folder.path());
     INFO(on.err);
     REQUIRE(on.exit == 0);
