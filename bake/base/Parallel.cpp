@@ -1,7 +1,9 @@
 #include "bake/base/Parallel.h"
 
+#include <algorithm>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
 #ifdef __SANITIZE_THREAD__
@@ -43,6 +45,12 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
     });
 }
 #endif
+
+std::size_t threadCount() {
+    return std::min<std::size_t>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+        static_cast<std::size_t>(tbb::info::default_concurrency()));
+}
 
 ThreadLimit::ThreadLimit(int threads) {
     if (threads > 0)

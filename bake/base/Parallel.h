@@ -9,6 +9,9 @@ namespace tss {
 /// number of threads.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
+/// How many threads that is.
+std::size_t threadCount();
+
 /// Limits the worker threads of this process while it lives. 0: as many as the machine has.
 class ThreadLimit {
 public:

@@ -18,6 +18,7 @@ double grownFrom(double protrusion) {
 
 const MedialSet& WholeFits::spheres(const std::string& body, const Solid& solid, double protrusion,
                                     const MedialOptions& options, const Progress& progress) {
+    const std::lock_guard lock(one_);
     const Key key{body, solid.hollow(), protrusion};
     if (const auto known = sets_.find(key); known != sets_.end()) return known->second;
     bool stopped = false;

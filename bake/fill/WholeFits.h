@@ -4,6 +4,7 @@
 #include "bake/spheres/SphereMethods.h"
 
 #include <map>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -11,7 +12,8 @@
 namespace tss {
 
 /// Medial spheres of whole bodies, kept from pair to pair: over many joint values every pair of a body asks
-/// for spheres of all of its surface. For one thread, and as long as the meshes stay what they are.
+/// for spheres of all of its surface. For any number of threads, one at a time, and as long as the meshes
+/// stay what they are.
 class WholeFits {
 public:
     /// patient: where given, the progress by which all are made, whatever those who ask have time for: what
@@ -27,6 +29,7 @@ public:
 private:
     using Key = std::tuple<std::string, bool, double>; ///< prim path, whether hollow, protrusion
     const Progress patient_;
+    std::mutex one_;
     std::map<Key, FittedPatches> patches_;
     std::map<Key, MedialSet> sets_;
 };

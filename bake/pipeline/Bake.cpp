@@ -1,5 +1,6 @@
 #include "bake/pipeline/Bake.h"
 
+#include "bake/base/Parallel.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakePair.h"
@@ -9,7 +10,11 @@
 #include "bake/pipeline/SelectTests.h"
 
 #include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
 #include <new>
+#include <thread>
 
 namespace tss {
 
@@ -65,14 +70,13 @@ PairReport timed(Item& item, const Work& work) {
     return report;
 }
 
+/// So many pairs and skins at most are in work at once, whatever the machine: each may take gigabytes.
+constexpr std::size_t mostAtOnce = 4;
+
 class Baker {
 public:
     Baker(SceneModel& scene, const BakeRequest& request, const Progress& progress)
-        : scene_(scene), request_(request), outer_(progress),
-          progress_([&](std::string_view step, double done) {
-              late_ = late_ || turn_.over();
-              return !late_ && !interrupted() && report(progress, step, done);
-          }) {}
+        : scene_(scene), request_(request), progress_(progress) {}
 
     std::vector<PairReport> run() {
         if (const auto refused = refusedByBake(scene_, request_); !refused.empty()) throw refused.front();
@@ -82,15 +86,32 @@ public:
             if (isToBake(pair)) addSettings(pair, request_);
         for (SkinModel& skin : scene_.skins)
             if (isToBake(skin)) addSettings(skin, request_);
-        bakeInTurns();
+        const std::vector<std::size_t> items = order();
+        const std::size_t atOnce =
+            std::clamp<std::size_t>(items.size(), 1, std::min(threadCount(), mostAtOnce));
+        BakeTurns turns(items, request_.until, atOnce);
+        untold_ = items;
+        {
+            std::vector<std::jthread> others;
+            for (std::size_t k = 1; k < atOnce; ++k) others.emplace_back([&] { work(turns); });
+            work(turns);
+        }
+        tell(true);
         return std::move(reports_);
     }
 
 private:
-    bool interrupted() {
-        over_ = over_ || (request_.interrupted && request_.interrupted());
-        return over_;
-    }
+    /// One item in work, in one thread.
+    struct Task {
+        BakeTurns::Turn turn;
+        bool late = false; ///< the turn was too short, and the work was told to stop
+    };
+    /// What came of an item.
+    struct Outcome {
+        PairReport report;
+        std::exception_ptr error;
+        bool ends = false; ///< the whole bake: the caller takes no such error
+    };
 
     template <class Item>
     bool isToBake(const Item& item) const {
@@ -114,76 +135,160 @@ private:
         return skins;
     }
 
-    void bakeInTurns() {
-        BakeTurns turns(order(), request_.until);
-        while (!interrupted()) {
-            const std::optional<BakeTurns::Turn> turn = turns.next();
-            if (!turn) break;
-            turn_ = turn->until;
-            brief_ = turn->brief;
-            const auto bakeIt = [&](auto& item) {
-                one(item, [&](PairReport& report) { bakeOne(item, report); });
-            };
+    /// What each thread does: one item after the other.
+    void work(BakeTurns& turns) {
+        std::unique_lock lock(state_);
+        for (;;) {
+            const auto turn = interrupted() || failed_ ? std::nullopt : turns.next();
+            if (!turn) {
+                if (inWork_ == 0) break;
+                ended_.wait(lock); // what is in work may be cut short, and come again
+                continue;
+            }
+            ++inWork_;
+            Task task{*turn};
+            lock.unlock();
             const std::size_t pairs = scene_.pairs.size();
-            turn->item < pairs ? bakeIt(scene_.pairs[turn->item]) : bakeIt(scene_.skins[turn->item - pairs]);
-            if (late_) turns.cutShort();
+            turn->item < pairs ? one(scene_.pairs[turn->item], task)
+                               : one(scene_.skins[turn->item - pairs], task);
+            lock.lock();
+            if (task.late) turns.cutShort(*turn);
+            --inWork_;
+            ended_.notify_all();
         }
     }
 
-    void bakeOne(Pair& pair, PairReport& report) {
+    bool interrupted() {
+        const std::lock_guard lock(told_);
+        over_ = over_ || (request_.interrupted && request_.interrupted());
+        return over_;
+    }
+
+    /// Tells of the progress of one task at a time: of several at once nobody could make sense. of: null: of
+    /// what serves any.
+    bool reported(const Task* of, std::string_view step, double done) {
+        const std::lock_guard lock(told_);
+        if (shown_ == nullptr) shown_ = of;
+        if (of == nullptr || shown_ == of) goesOn_ = report(progress_, step, done);
+        return goesOn_;
+    }
+
+    void hide(const Task& task) {
+        const std::lock_guard lock(told_);
+        if (shown_ == &task) shown_ = nullptr;
+    }
+
+    Progress progressOf(Task& task) {
+        return [this, &task](std::string_view step, double done) {
+            task.late = task.late || task.turn.until.over();
+            return !task.late && !interrupted() && reported(&task, step, done);
+        };
+    }
+
+    void bakeOne(Pair& pair, Task& task, PairReport& report) {
         BakeOptions options = optionsFor(scene_, pair);
         options.kept = kept_;
         options.effort = request_.effort;
         options.mostLooks = static_cast<std::uint64_t>(request_.effort * double(options.mostLooks));
         options.mostPatches = static_cast<std::size_t>(request_.effort * double(options.mostPatches));
-        if (!brief_) options.until = turn_;
+        if (!task.turn.brief) options.until = task.turn.until;
         try {
-            bakePair(scene_, pair, options, report, progress_);
+            bakePair(scene_, pair, options, report, progressOf(task));
         } catch (const BudgetEnded&) {
-            if (!turn_.comes()) throw;
-            late_ = true;
+            if (!task.turn.until.comes()) throw;
+            task.late = true;
         }
     }
 
-    void bakeOne(SkinModel& skin, PairReport& report) {
-        bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progress_);
+    void bakeOne(SkinModel& skin, Task& task, PairReport& report) {
+        bakeSkin(scene_, skin, optionsFor(skin.settings, {}, scene_.metersPerUnit), report, progressOf(task));
     }
 
     /// Bakes one item; leaves it as it was where that does not come to its end.
-    template <class Item, class Work>
-    void one(Item& item, const Work& work) {
-        const Item before = item;
-        late_ = false;
+    template <class Item>
+    void one(Item& item, Task& task) {
+        Item baked = item;
+        Outcome outcome;
         try {
-            const PairReport report = timed(item, work);
-            if (!late_ && !interrupted()) {
-                reports_.push_back(report);
-                if (request_.done) request_.done(report);
-                return;
+            outcome.report = timed(baked, [&](PairReport& report) { bakeOne(baked, task, report); });
+        } catch (const InputError&) {
+            outcome.error = std::current_exception();
+            outcome.ends = !request_.failed;
+        } catch (...) {
+            outcome.error = std::current_exception();
+            outcome.ends = true;
+        }
+        const bool left = task.late || interrupted();
+        const std::lock_guard lock(state_);
+        hide(task);
+        if (left) return;
+        failed_ = failed_ || outcome.ends;
+        if (!outcome.error) store(baked, item);
+        outcomes_.emplace(task.turn.item, std::move(outcome));
+        tell(false);
+    }
+
+    /// No more than this, for the rest is read by those in work.
+    static void store(const Pair& baked, Pair& pair) {
+        pair.table = baked.table;
+        pair.proof = baked.proof;
+        pair.sourceHash = baked.sourceHash;
+    }
+    static void store(const SkinModel& baked, SkinModel& skin) {
+        skin.table = baked.table;
+        skin.sourceHash = baked.sourceHash;
+    }
+
+    /// Tells the caller what came of items: without a time limit in their order, whichever was done first.
+    /// all: at the end; throws the first error that ends the bake.
+    void tell(bool all) {
+        const bool inOrder = !request_.until.comes() && !all;
+        for (auto next = untold_.begin(); next != untold_.end();) {
+            const auto known = outcomes_.find(*next);
+            if (known == outcomes_.end() || (known->second.ends && !all)) {
+                if (inOrder) return;
+                ++next;
+                continue;
             }
-        } catch (const InputError& error) {
-            if (!late_ && !interrupted()) {
-                if (!request_.failed) throw;
-                request_.failed(error);
+            const Outcome outcome = std::move(known->second);
+            outcomes_.erase(known);
+            next = untold_.erase(next);
+            if (outcome.ends) std::rethrow_exception(outcome.error);
+            const std::lock_guard lock(told_);
+            if (outcome.error) {
+                try {
+                    std::rethrow_exception(outcome.error);
+                } catch (const InputError& error) {
+                    request_.failed(error);
+                }
+            } else {
+                reports_.push_back(outcome.report);
+                if (request_.done) request_.done(outcome.report);
             }
         }
-        item = before;
     }
 
     SceneModel& scene_;
     const BakeRequest& request_;
-    const Progress& outer_; ///< of the caller
+    const Progress& progress_;
+    std::vector<std::string> paths_; ///< of what is baked
+
+    std::mutex state_;                        ///< of the items of the scene and what follows
+    std::condition_variable ended_;           ///< a task has ended
+    std::size_t inWork_ = 0;                  ///< tasks
+    bool failed_ = false;                     ///< with an error that ends the bake
+    std::vector<std::size_t> untold_;         ///< items of which the caller was not told yet, in their order
+    std::map<std::size_t, Outcome> outcomes_; ///< of items, those not told yet
+    std::vector<PairReport> reports_;
+
+    std::mutex told_;             ///< of all that the caller is asked and told, and what follows; locked last
+    const Task* shown_ = nullptr; ///< of which progress is told
+    bool goesOn_ = true;          ///< what was answered last
     bool over_ = false;
-    Deadline turn_;      ///< by which the one in work is to be done
-    bool brief_ = false; ///< it has a longer turn where that is not enough
-    bool late_ = false;  ///< it was not, and was told to stop
-    const Progress progress_;
     const std::shared_ptr<WholeFits> kept_ =
         std::make_shared<WholeFits>([this](std::string_view step, double done) {
-            return !request_.until.over() && !interrupted() && report(outer_, step, done);
+            return !request_.until.over() && !interrupted() && reported(nullptr, step, done);
         });
-    std::vector<std::string> paths_; ///< of what is baked
-    std::vector<PairReport> reports_;
 };
 
 } // namespace

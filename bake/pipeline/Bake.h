@@ -25,7 +25,8 @@ struct BakeRequest {
     /// turn of some of the time (BakeTurns).
     Deadline until{};
     double effort = 1; ///< share of the usual limits of looks and patches, in (0, 1]
-    /// Called for each that is baked, once it is in the scene.
+    /// Called for each that is baked, once it is in the scene, from one thread at a time; where there is no
+    /// time limit in the scene's order, pairs first. Neither this nor the next may throw.
     std::function<void(const PairReport&)> done{};
     /// Called for each that cannot be baked, and the others are baked; without it the error is thrown.
     std::function<void(const InputError&)> failed{};
@@ -46,9 +47,9 @@ bool isWanted(const BakeRequest& request, const std::string& path);
 std::vector<std::string> pathsToBake(const SceneModel& scene, const BakeRequest& request);
 
 /// The whole pipeline on one scene (METHOD 1 to 3): for each pair spheres, search, reduction, table and
-/// bounds; for each skin the rows that its muscles can reach. Tables, proofs, hashes and settings go into the
-/// scene. Throws InputError that names the prim for what
-/// cannot be baked: what shows without making spheres (refusedByBake()) before any is made.
+/// bounds; for each skin the rows that its muscles can reach. Up to four at once, each with the same result
+/// as alone. Tables, proofs, hashes and settings go into the scene. Throws InputError that names the prim for
+/// what cannot be baked: what shows without making spheres (refusedByBake()) before any is made.
 std::vector<PairReport> bake(SceneModel& scene, const BakeRequest& request = {},
                              const Progress& progress = {});
 

@@ -18,7 +18,8 @@ std::vector<std::size_t> pairsByWeight(const SceneModel& scene, const std::vecto
     return order;
 }
 
-BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& until) : until_(until) {
+BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& until, std::size_t atOnce)
+    : until_(until), atOnce_(double(atOnce)) {
     for (const std::size_t item : order) waiting_.push_back({item, 0});
     if (waiting_.size() <= fewToBake) ++round_; // no brief turns
     beginRound();
@@ -27,13 +28,17 @@ BakeTurns::BakeTurns(const std::vector<std::size_t>& order, const Deadline& unti
 void BakeTurns::beginRound() {
     const double left = until_.left(), count = double(std::max<std::size_t>(waiting_.size(), 1));
     ++round_;
-    turn_ = round_ == 1 ? left / 100 : round_ == 2 ? std::max(left / 4, left / count) : left;
+    turn_ = round_ == 1   ? atOnce_ * left / 100
+            : round_ == 2 ? std::max(left / 4, std::min(left, atOnce_ * left / count))
+                          : left;
     if (round_ == 1) briefUntil_ = Deadline(left / 2);
 }
 
-void BakeTurns::cutShort() {
-    cut_.push_back(last_);
-    if (round_ > 1) turn_ = 2 * last_.tried;
+void BakeTurns::cutShort(const Turn& turn) {
+    const Waiting again{turn.item, turn.seconds};
+    if (turn.round < round_) return waiting_.push_back(again);
+    cut_.push_back(again);
+    if (round_ > 1) turn_ = 2 * turn.seconds;
 }
 
 std::optional<BakeTurns::Turn> BakeTurns::next() {
@@ -45,12 +50,12 @@ std::optional<BakeTurns::Turn> BakeTurns::next() {
             cut_.clear();
             beginRound();
         }
-        last_ = waiting_.front();
+        const Waiting one = waiting_.front();
         waiting_.pop_front();
+        if (!until_.comes()) return Turn{one.item, {}, false, round_, 0};
         const double seconds = std::min(turn_, until_.left());
-        if (seconds < 2 * last_.tried) continue;
-        last_.tried = seconds;
-        return Turn{last_.item, until_.comes() ? Deadline(seconds) : Deadline(), round_ == 1};
+        if (seconds < 2 * one.tried) continue;
+        return Turn{one.item, Deadline(seconds), round_ == 1, round_, seconds};
     }
     return std::nullopt;
 }

@@ -20,22 +20,26 @@ constexpr std::size_t fewToBake = 8;
 /// turns of a hundredth of the time, for half of it at most, so that what is quick is done; then turns of a
 /// quarter of the time that is left, or of a fair share where that is longer, twice as long after one that
 /// was too short, in the order given, as far as the time goes; then all that is left. One that was cut short
-/// has no further turn of less than twice the time.
+/// has no further turn of less than twice the time. Where several are baked at once each has as much time as
+/// all of them.
 class BakeTurns {
 public:
     struct Turn {
         std::size_t item;
         Deadline until;
         bool brief = false; ///< what is cut short has a longer one: there is nothing to be hasty about
+        int round = 0;
+        double seconds = 0; ///< until then; 0: no limit
     };
 
-    BakeTurns(const std::vector<std::size_t>& order, const Deadline& until);
+    /// atOnce: how many are baked at the same time.
+    BakeTurns(const std::vector<std::size_t>& order, const Deadline& until, std::size_t atOnce = 1);
 
     /// Nothing: all had their turn, or the time is over or too short for those that wait.
     std::optional<Turn> next();
 
-    /// The turn that next() gave last was too short.
-    void cutShort();
+    /// This turn was too short.
+    void cutShort(const Turn& turn);
 
 private:
     struct Waiting {
@@ -47,11 +51,11 @@ private:
 
     std::deque<Waiting> waiting_;
     std::vector<Waiting> cut_; ///< of this round
-    Waiting last_{};
     int round_ = 0;
     double turn_ = infinity; ///< of this round, seconds
     Deadline briefUntil_;    ///< brief turns end
     const Deadline until_;
+    const double atOnce_;
 };
 
 } // namespace tss

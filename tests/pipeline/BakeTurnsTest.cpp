@@ -42,16 +42,12 @@ TEST_CASE(
         CHECK(turn->item == item);
         CHECK(turn->until.left() == Approx(seconds).epsilon(0.01));
         CHECK(turn->brief == (seconds < 100));
+        return *turn;
     };
-    for (const std::size_t item : many) {
-        expectTurn(item, 10);
-        turns.cutShort();
-    }
+    for (const std::size_t item : many) turns.cutShort(expectTurn(item, 10));
     expectTurn(99, 250);
-    expectTurn(98, 250);
-    turns.cutShort();
-    expectTurn(97, 500);
-    turns.cutShort();
+    turns.cutShort(expectTurn(98, 250));
+    turns.cutShort(expectTurn(97, 500));
     for (std::size_t item = 97; item-- > 0;) expectTurn(item, 1000);
     expectTurn(98, 1000);      // with all that is left
     CHECK_FALSE(turns.next()); // 97: no more than twice the time
@@ -62,8 +58,9 @@ TEST_CASE("brief turns end with half of the time, and all that wait follow in th
     std::vector<std::size_t> many{7, 3, 5, 1, 2, 4, 6, 8, 9};
     BakeTurns turns(many, Deadline(0.5));
     REQUIRE(turns.next()->item == 7); // takes no time
-    REQUIRE(turns.next()->brief);
-    turns.cutShort(); // 3
+    const auto cut = turns.next();    // 3
+    REQUIRE(cut->brief);
+    turns.cutShort(*cut);
     std::this_thread::sleep_for(std::chrono::milliseconds(260));
     const auto next = turns.next();
     REQUIRE(next);
@@ -80,14 +77,15 @@ TEST_CASE("few have no brief turn, and a fair share where that is more than a qu
         CHECK(turn->item == item);
         CHECK(turn->until.left() == Approx(item == 5 ? 500 : 1000).epsilon(0.01));
         CHECK_FALSE(turn->brief);
-        if (item == 5) turns.cutShort();
+        if (item == 5) turns.cutShort(*turn);
     }
     // Again, but only with twice the time: less than 1000 s are left by now.
     CHECK_FALSE(turns.next());
 
     BakeTurns three({5, 6, 7}, Deadline(1000));
-    REQUIRE(three.next());
-    three.cutShort(); // after a third
+    const auto third = three.next();
+    REQUIRE(third);
+    three.cutShort(*third);
     CHECK(three.next()->item == 6);
     CHECK(three.next()->item == 7);
     const auto again = three.next();
@@ -95,6 +93,28 @@ TEST_CASE("few have no brief turn, and a fair share where that is more than a qu
     CHECK(again->item == 5);
     CHECK(again->until.left() == Approx(1000).epsilon(0.01));
     CHECK_FALSE(three.next());
+}
+
+TEST_CASE(
+    "where several are baked at once each has the time of all of them, and one that is cut late waits") {
+    std::vector<std::size_t> many;
+    for (std::size_t k = 0; k < 10; ++k) many.push_back(k);
+    BakeTurns turns(many, Deadline(1000), 4);
+    std::vector<BakeTurns::Turn> brief;
+    for (std::size_t k = 0; k < 10; ++k) brief.push_back(*turns.next());
+    CHECK(brief[0].until.left() == Approx(40).epsilon(0.01));
+    CHECK_FALSE(turns.next()); // those in work may be cut short yet
+    turns.cutShort(brief[2]);
+    const auto longer = turns.next();
+    REQUIRE(longer);
+    CHECK(longer->item == 2);
+    CHECK(longer->until.left() == Approx(1000).epsilon(0.01));
+    turns.cutShort(brief[7]);
+    const auto late = turns.next();
+    REQUIRE(late);
+    CHECK(late->item == 7);
+    CHECK(late->round == longer->round);
+    CHECK(late->until.left() == Approx(1000).epsilon(0.01));
 }
 
 TEST_CASE("pairs that a joint ties come first, then what is nearest at rest") {
