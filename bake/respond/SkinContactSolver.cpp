@@ -11,9 +11,9 @@ namespace tss {
 namespace {
 
 /// Rounds of querying, solving and moving: where the skin has moved to there are new contacts, and the
-/// normals of curved surfaces have changed. After so many there are as many more only where these have halved
-/// what is lacking: in the crook of an elbow, between two bones, 24 were needed. Where surfaces demand more
-/// than the skin can give, more would only press it flat.
+/// normals of curved surfaces have changed. After so many there are as many more only where what is lacking
+/// can be seen and these have halved it: in the crook of an elbow, between two bones, 24 were needed. Where
+/// surfaces demand more than the skin can give, more would only press it flat.
 constexpr int roundsAtATime = 8;
 
 /// Rounds in a row that leave the planes violated no less: they demand more than the skin can give.
@@ -233,7 +233,7 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         stalled = lack < last ? 0 : stalled + 1;
         last = lack;
         const bool whole = round % roundsAtATime == 0;
-        const bool more = !whole || least <= before / 2;
+        const bool more = !whole || (least > unseen && least <= before / 2);
         if (whole) before = least;
         if (more && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
         const SkinClock::Scope scope(clock_, SkinPart::Pushes);

@@ -80,7 +80,7 @@ TEST_CASE("what contacts have moved is seen wherever it has come to") {
          << " mm, " << lips.rows << " rows");
     CHECK(head.mean < 0.0075); // 0.0076 with those
     CHECK(head.rows < 4);
-    CHECK(lips.mean < 0.005); // 0.009 with at most 8 rounds
+    CHECK(lips.mean < 0.007); // 0.009 with at most 8 rounds
     CHECK(lips.rows == 0);
 }
 
