@@ -1,4 +1,6 @@
 #pragma once
+#include "bake/character/CutByWeights.h"
+
 #include <osg/Transform>
 #include <osgAnimation/Bone>
 #include <osgAnimation/RigGeometry>
@@ -54,8 +56,7 @@ public:
         std::size_t dropped = 0; ///< triangles left out since a corner is no finite point
     };
 
-    /// The parts, by body. Meshes hang together where their vertices are at one place; where a part was cut
-    /// off another its rim is closed by a fan, so that what was a solid is cut into solids.
+    /// The parts, by body (tss::cutByWeights()).
     std::map<int, Part> parts() const;
 
 private:
@@ -63,7 +64,7 @@ private:
         const osgAnimation::Bone* bone = nullptr;
         PlaceInBody place;
     };
-    class Cutter;
+    tss::HeldMesh heldMesh(const Rig& rig) const;
 
     const osg::Transform& _skeleton;
     std::map<std::string, Held> _bones;

@@ -1,5 +1,6 @@
 #include "AxisDofs.h"
 
+#include "bake/motion/AxisTurns.h"
 #include "bake/motion/WholeTurn.h"
 
 #include <osg/Math>
@@ -8,24 +9,6 @@
 #include <cmath>
 
 namespace osgTSS {
-
-std::array<double, 3> turnsOf(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes) {
-    const auto [a, b, c] = axes;
-    const double hand = (a + 1) % 3 == b ? 1 : -1;
-    return {std::atan2(-hand * rotation(b, c), rotation(c, c)),
-            std::asin(std::clamp(hand * rotation(a, c), -1.0, 1.0)),
-            std::atan2(-hand * rotation(a, b), rotation(a, a))};
-}
-
-bool addTurns(const Eigen::Matrix3d& rotation, const std::array<int, 3>& axes, bool first,
-              std::array<std::vector<double>, 3>& run) {
-    const double mostMiddle = osg::DegreesToRadians(80.0);
-    const std::array<double, 3> angles = turnsOf(rotation, axes);
-    if (std::abs(angles[1]) > mostMiddle) return false;
-    for (std::size_t k = 0; k < 3; ++k)
-        run[k].push_back(tss::nearestTurn(angles[k], first ? 0 : run[k].back()));
-    return true;
-}
 
 int axisOf(const tss::Dof& dof) {
     int axis = 0;
@@ -55,7 +38,7 @@ tss::Pose AxisDofs::poseAt(const std::vector<double>& values) const {
 }
 
 std::vector<double> AxisDofs::valuesOf(const tss::Pose& pose) const {
-    const std::array<double, 3> first = turnsOf(pose.linear(), _order),
+    const std::array<double, 3> first = tss::turnsOf(pose.linear(), _order),
                                 other{first[0] + osg::PI, osg::PI - first[1], first[2] + osg::PI};
     const std::vector<double> values = valuesBy(first, pose.translation()),
                               others = valuesBy(other, pose.translation());

@@ -10,10 +10,6 @@
 
 namespace osgTSS {
 
-/// By how much more than the range of its keys a bone's joint may move, as a share of that range, at each
-/// end: animations that are blended go a little beyond either.
-inline constexpr double boneSlack = 0.05;
-
 /// Turns of less than this (radians, from the mean of all keys) are no degree of freedom, and axes that are
 /// scaled differently by less are a turn all the same: what keys are rounded by, and bones sheared between
 /// matrices as keys; or the user value "osgTSS:still" (degrees) of the bone.
@@ -21,10 +17,10 @@ double boneStill(const osg::Node& bone);
 
 /// How a bone moves against its parent node, by the keys of all animations and the pose that it was bound in.
 /// One joint whose DOFs are the axes that the keys use: "slide.x" ... "slide.z", then one "turn", or "turn1"
-/// to "turn3"; its limits are the range of the keys and boneSlack. A joint without DOFs is a bone that
-/// stands, where its frame0 is. Rest is the bound pose; where a skin is bound to a bone that stands otherwise
-/// without any key, it is a joint from the one pose to the other. Throws tss::InputError with the reason for
-/// keys that are no rigid motion, or turn too far about several axes.
+/// to "turn3"; its limits are the range of the keys and tss::keysSlack (tss::keyedJoint()). A joint without
+/// DOFs is a bone that stands, where its frame0 is. Rest is the bound pose; where a skin is bound to a bone
+/// that stands otherwise without any key, it is a joint from the one pose to the other. Throws
+/// tss::InputError with the reason for keys that are no rigid motion, or turn too far about several axes.
 FoundJoints boneMotion(osgAnimation::Bone& bone, const AnimationChannels& channels);
 
 /// The matrices that the keys of each animation take a bone through, also between keys: what its stack of

@@ -1,8 +1,7 @@
 #include "StackedDof.h"
 
-#include "AxisDofs.h"
-
 #include "bake/base/Error.h"
+#include "bake/motion/AxisTurns.h"
 #include "bake/motion/TurnBetween.h"
 #include "bake/motion/WholeTurn.h"
 
@@ -91,7 +90,7 @@ std::vector<std::vector<Keys<double>>> inTurns(const TurnKeys& all, const std::a
     for (const Keys<Eigen::Matrix3d>& keys : all) {
         std::array<std::vector<double>, 3> angles;
         for (const Eigen::Matrix3d& value : keys.values)
-            if (!addTurns(value, order, angles[0].empty(), angles)) return {};
+            if (!tss::addTurns(value, order, angles[0].empty(), angles)) return {};
         for (std::size_t k = 0; k < 3; ++k) turns[k].push_back({keys.times, std::move(angles[k])});
     }
     return turns;
@@ -174,7 +173,7 @@ double StackedDof::value() const {
         break;
     }
     const osg::Quat& q = static_cast<StackedQuaternionElement&>(*element).getQuaternion();
-    const double angle = turnsOf(matrixOf(q), _order)[_index];
+    const double angle = tss::turnsOf(matrixOf(q), _order)[_index];
     return tss::nearestTurn(angle, _middle);
 }
 
@@ -193,7 +192,7 @@ void StackedDof::setValue(double value) {
         break;
     }
     auto& turn = static_cast<StackedQuaternionElement&>(*element);
-    std::array<double, 3> angles = turnsOf(matrixOf(turn.getQuaternion()), _order);
+    std::array<double, 3> angles = tss::turnsOf(matrixOf(turn.getQuaternion()), _order);
     angles[_index] = value;
     const Eigen::Quaterniond q(product(angles, _order));
     turn.setQuaternion(osg::Quat(q.x(), q.y(), q.z(), q.w()));
