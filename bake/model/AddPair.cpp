@@ -1,6 +1,7 @@
 #include "bake/model/AddPair.h"
 
 #include "bake/base/Error.h"
+#include "bake/model/Kinematics.h"
 #include "bake/motion/TurnBetween.h"
 
 #include <array>
@@ -176,6 +177,22 @@ std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion
     joint.drives.resize(joint.dofs.size());
     scene.joints.push_back(joint);
     return {static_cast<int>(scene.joints.size()) - 1};
+}
+
+int addJoint(SceneModel& scene, Joint joint, const std::string& name) {
+    std::vector<double> rest;
+    for (const Dof& dof : joint.dofs) rest.push_back(dof.rest);
+    Pose above = Pose::Identity();
+    if (joint.body0 >= 0) {
+        scene.bodies[joint.body0].rigid = true;
+        above = scene.bodies[joint.body0].placement;
+    }
+    scene.bodies[joint.body1].rigid = true;
+    scene.bodies[joint.body1].placement = above * jointPose(joint, rest);
+    joint.path = parentOf(scene) + freePrimName(scene, name);
+    joint.drives.resize(joint.dofs.size());
+    scene.joints.push_back(std::move(joint));
+    return static_cast<int>(scene.joints.size()) - 1;
 }
 
 int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const std::string& name) {

@@ -16,6 +16,10 @@ int addPair(SceneModel& scene, int bodyA, int bodyB, const Motion& motion, const
 std::vector<int> addJoints(SceneModel& scene, int bodyA, int bodyB, const Motion& motion,
                            const std::string& name);
 
+/// Adds a joint with its frames, DOFs and bodies as it is, but for its path, which `name` gives, and places
+/// its body1 where the joint rests. Returns its index.
+int addJoint(SceneModel& scene, Joint joint, const std::string& name);
+
 /// A name that USD accepts ([A-Za-z_][A-Za-z0-9_]*), as near to the wanted one as can be, that no body, joint
 /// or muscle of the scene has yet under the root prim.
 std::string freePrimName(const SceneModel& scene, const std::string& wanted);

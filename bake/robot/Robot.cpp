@@ -122,6 +122,10 @@ bool slidesOnAndOn(Robot& robot, const RobotJoint& joint) {
 
 void moveChild(RobotJoint& joint, const Vec3& by) {
     joint.origin = Pose(joint.origin * Eigen::Translation3d(by));
+    if (joint.frame) {
+        joint.frame = Pose(Eigen::Translation3d(-by) * *joint.frame);
+        return;
+    }
     for (Dof& dof : joint.dofs) {
         dof.origin -= by;
         dof.frame = Pose(Eigen::Translation3d(-by) * dof.frame);

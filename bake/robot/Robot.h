@@ -29,7 +29,8 @@ struct RobotLink {
     std::string name;
     bool named = true; ///< false: the file has no name for it, this one was made up
     std::vector<RobotShape> collision, visual;
-    std::optional<Vec3> color;     ///< linear RGB
+    std::optional<Vec3> color; ///< linear RGB
+    bool visible = true;
     Pose place = Pose::Identity(); ///< in the world, where no joint says it
 };
 
@@ -41,11 +42,26 @@ struct RobotJoint {
     Pose origin = Pose::Identity();
     std::vector<Dof> dofs;
     bool endless = false; ///< it turns on and on: its limits are one whole turn
+    /// In the child's frame, one whose axes the DOFs are about and along (X, Y, Z, each once): these are then
+    /// in it, with their origins at 0. Nothing: they are in the child's frame.
+    std::optional<Pose> frame;
     /// The joint that this one, of one DOF, follows: value = factor * its value + offset.
     std::string leader;
     double factor = 1, offset = 0;
     std::vector<TimeSamples> drives; ///< the motion that the file asks for, none or one per DOF
     std::string where;
+};
+
+/// A mesh over links that follows them by weights: it is drawn, and collides with nothing.
+struct RobotSkin {
+    std::string name;
+    TriangleMesh mesh;                  ///< in the world, where all links are at rest
+    std::vector<int> links;             ///< indices of links
+    std::size_t influences = 1;         ///< a vertex
+    std::vector<std::uint32_t> indices; ///< #V times influences, into links
+    std::vector<double> weights;        ///< the same number, >= 0, of a vertex 1 together
+    std::optional<Vec3> color;          ///< linear RGB
+    bool visible = true;
 };
 
 /// What a robot's description says, whatever its format. Links hang on each other as a forest.
@@ -57,7 +73,10 @@ struct Robot {
     double timeCodesPerSecond = 24, startTimeCode = 0, endTimeCode = 0;
     std::vector<RobotLink> links;
     std::vector<RobotJoint> joints;
+    std::vector<RobotSkin> skins;
     std::vector<std::pair<std::string, std::string>> unpaired; ///< links whose collision is switched off
+    /// Links that one surface was cut into, as it bends between them: they meet there at every pose.
+    std::vector<std::pair<std::string, std::string>> seams;
     std::vector<std::string> notes; ///< what was left out or taken otherwise than it stands there, by name
 };
 

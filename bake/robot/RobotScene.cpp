@@ -66,6 +66,7 @@ public:
             }
         }
         noteSome(renamed_, 3);
+        for (const RobotSkin& skin : robot_.skins) addSkin(skin);
         addPairs();
         addMotion();
         return std::move(result_);
@@ -159,6 +160,7 @@ private:
         const Vec3 tones[] = {{0.80, 0.79, 0.76}, {0.48, 0.56, 0.64}};
         body.displayColor = link.color.value_or(tones[scene.bodies.size() % 2]);
         body.rigid = true;
+        body.visible = link.visible;
         body.placement = link.place;
         scene.bodies.push_back(std::move(body));
         result_.links.push_back(report);
@@ -187,8 +189,39 @@ private:
                                              : led(joint, restOf(*leader, leader->dofs[0]));
     }
 
+    void addSkin(const RobotSkin& skin) {
+        SceneModel& scene = result_.scene;
+        Body body;
+        const std::string name = freePrimName(scene, skin.name);
+        body.path = "/" + scene.defaultPrim + "/" + name;
+        if (name != skin.name) body.displayName = skin.name;
+        body.mesh = skin.mesh;
+        body.displayColor = skin.color.value_or(Vec3(0.80, 0.79, 0.76));
+        body.visible = skin.visible;
+        SkinModel model;
+        model.path = body.path;
+        model.body = static_cast<int>(scene.bodies.size());
+        model.weights = {skin.links, skin.influences, skin.indices, skin.weights};
+        scene.bodies.push_back(std::move(body));
+        scene.skins.push_back(std::move(model));
+        result_.links.push_back({scene.skins.back().path, 1, true});
+    }
+
+    /// One whose DOFs have a frame of their own.
+    void addFramedJoint(std::size_t index) {
+        const RobotJoint& joint = robot_.joints[index];
+        Joint made;
+        made.body0 = joint.parent, made.body1 = joint.child;
+        made.frame0 = joint.origin * *joint.frame;
+        made.frame1 = *joint.frame;
+        made.dofs = joint.dofs;
+        made.collisionEnabled = true;
+        chains_[index] = {tss::addJoint(result_.scene, std::move(made), joint.name)};
+    }
+
     void addJoint(std::size_t index) {
         const RobotJoint& joint = robot_.joints[index];
+        if (joint.frame) return addFramedJoint(index);
         Motion motion;
         motion.base = joint.origin;
         for (Dof dof : joint.dofs) { // in the parent's frame
@@ -214,7 +247,7 @@ private:
 
     bool isWanted(int bodyA, int bodyB) const {
         if (unpaired_.contains(std::minmax(bodyA, bodyB))) return false;
-        if (request_.pairs == RobotPairs::All) return true;
+        if (request_.pairs == RobotPairs::All) return !seams_.contains(std::minmax(bodyA, bodyB));
         return std::ranges::any_of(robot_.joints, [&](const RobotJoint& joint) {
             return std::minmax(joint.parent, joint.child) == std::minmax(bodyA, bodyB);
         });
@@ -223,15 +256,19 @@ private:
     void findUnpaired() {
         std::map<std::string, int> links;
         for (const RobotLink& link : robot_.links) links.emplace(link.name, static_cast<int>(links.size()));
-        for (const auto& [a, b] : robot_.unpaired)
-            if (links.contains(a) && links.contains(b))
-                unpaired_.insert(std::minmax(links.at(a), links.at(b)));
+        for (const auto& [from, to] : {std::pair(&robot_.unpaired, &unpaired_), {&robot_.seams, &seams_}})
+            for (const auto& [a, b] : *from)
+                if (links.contains(a) && links.contains(b)) to->insert(std::minmax(links.at(a), links.at(b)));
     }
 
     void addPairs() {
         findUnpaired();
         const AllPairs found = addAllPairs(result_.scene);
         std::vector<Pair>& pairs = result_.scene.pairs;
+        std::erase_if(pairs, [&](const Pair& pair) {
+            const auto links = std::minmax(pair.bodyA, pair.bodyB);
+            return request_.pairs == RobotPairs::All && seams_.contains(links) && !unpaired_.contains(links);
+        });
         const std::size_t all = pairs.size();
         std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair.bodyA, pair.bodyB); });
         std::vector<std::string> unmade;
@@ -292,6 +329,7 @@ private:
     std::size_t triangles_ = 0;
     std::vector<std::vector<int>> chains_;   ///< the joints of the scene, per joint of the robot
     std::set<std::pair<int, int>> unpaired_; ///< bodies whose collision is switched off, the lower first
+    std::set<std::pair<int, int>> seams_;    ///< the same: that meet at every pose
 };
 
 } // namespace

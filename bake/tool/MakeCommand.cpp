@@ -179,7 +179,8 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
     RobotFile& robot = arguments->robot;
     CLI::Option* input = command.add_option(
         "robot", robot.input,
-        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics");
+        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics or "
+        "UsdSkel");
     for (CLI::Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
         .add_option(

@@ -90,7 +90,9 @@ std::string ownTolerances(const SceneModel& scene) {
 std::string fewerPairs(const SceneModel& scene) {
     constexpr std::size_t many = 100;
     const auto tied = [&](const Pair& pair) { return tiesDirectly(scene, pair); };
-    if (scene.pairs.size() <= many || std::ranges::all_of(scene.pairs, tied)) return "";
+    if (scene.pairs.size() <= many || std::ranges::all_of(scene.pairs, tied) ||
+        std::ranges::none_of(scene.pairs, tied))
+        return "";
     return fmt::format("{} take some seconds of one core each; for a picture sooner make only those that a "
                        "joint ties: --pairs neighbours",
                        counted(scene.pairs.size(), "pair"));

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/base/Words.h"
+#include "bake/robot/LeftOut.h"
 #include "bake/robot/Robot.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/SceneParts.h"
@@ -13,26 +13,6 @@
 namespace tss {
 
 // What robotOf() is made of.
-
-/// Names by what became of them, as notes: at most some a kind, and how many there are. What is added of one
-/// name several times in a row is said once.
-class LeftOut {
-public:
-    void add(const std::string& kind, const std::string& name) {
-        std::vector<std::string>& names = names_[kind];
-        if (names.empty() || names.back() != name) names.push_back(name);
-    }
-
-    std::vector<std::string> notes() const {
-        constexpr std::size_t most = 4;
-        std::vector<std::string> notes;
-        for (const auto& [kind, names] : names_) notes.push_back(kind + ": " + firstOf(names, most));
-        return notes;
-    }
-
-private:
-    std::map<std::string, std::vector<std::string>> names_;
-};
 
 /// What is wrong with a prim or one of its properties: the message, after the property's name.
 std::string messageBelow(const std::string& prim, const InputError& error);

@@ -1,6 +1,7 @@
 #include "bake/usd/UsdRobot.h"
 
 #include "bake/usd/UsdParts.h"
+#include "bake/usd/UsdSkel.h"
 
 #include <algorithm>
 #include <set>
@@ -33,6 +34,7 @@ public:
     Robot read() {
         readMetadata();
         findLinks();
+        skel_ = readUsdSkel(reading_, {world_, unplaced_, linkOf_}, robot_.startTimeCode, names_, leftOut_);
         placeGprims();
         noteOthers();
         addWorld();
@@ -42,6 +44,7 @@ public:
         tieToWorld();
         readFilteredPairs();
         restAsShown(robot_, leftOut_);
+        addCharacters(skel_, worldLink_, reading_.layer.metadata.contains("endTimeCode"), robot_, leftOut_);
         if (robot_.links.empty()) {
             std::string found;
             for (const auto& notes : {robot_.notes, leftOut_.notes()})
@@ -147,14 +150,14 @@ private:
         bool physics = !robot_.links.empty(), shapes = false;
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             physics = physics || colliders_.is(i);
-            shapes = shapes || isGprim(*entries_[i].prim);
+            shapes = shapes || (isGprim(*entries_[i].prim) && !skel_.skinned[i]);
         }
         if (!physics && shapes)
             leftOut_.add("no rigid bodies and no colliders: each mesh is a body of its own", robot_.name);
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             const Prim& prim = *entries_[i].prim;
             remark(i);
-            if (colliders_.isPrototype(i)) continue;
+            if (colliders_.isPrototype(i) || skel_.skinned[i]) continue;
             const bool collider = colliders_.collides(i);
             int link = linkOf_[i];
             if (!isGprim(prim)) {
@@ -227,7 +230,7 @@ private:
         if (!isGroup(prim) && !isGprim(prim) && type.find("Joint") == type.npos) {
             if (colliders_.is(entry))
                 leftOut_.add("left out: colliders of type " + type, pathOf(entry));
-            else if (type != "PhysicsCollisionGroup") // filteredLinks() reads these
+            else if (type != "PhysicsCollisionGroup" && !isOfCharacters(type)) // which are read elsewhere
                 others_[type].push_back(pathOf(entry));
         }
         if (colliders_.is(entry) && isGroup(prim))
@@ -256,9 +259,6 @@ private:
                     pathOf(entry));
                 break;
             }
-        if (prim.property("primvars:skel:jointIndices") || prim.property("skel:skeleton"))
-            leftOut_.add("left out: weights of a UsdSkel skeleton, whose joints are no bodies",
-                         pathOf(entry));
         if (hasApi(prim, "PhysicsArticulationRootAPI") || hasApi(prim, "PhysicsMassAPI"))
             leftOut_.add("not read: masses and articulations' settings", pathOf(entry));
     }
@@ -344,6 +344,7 @@ private:
     std::vector<Xform> world_;
     Robot robot_;
     LeftOut leftOut_;
+    UsdCharacters skel_;
     std::map<std::string, std::vector<std::string>> others_; ///< prims of types that are not read, by type
     RobotLink scenery_;
     int worldLink_ = -1;

@@ -11,7 +11,11 @@ using Json = nlohmann::json;
 
 TEST_CASE("every command of docs/USD.md does what it says, one after the other") {
     const Folder folder;
-    CHECK(runPage("USD.md", folder.path()).size() == 7);
+    const std::vector<Ran> commands = runPage("USD.md", folder.path());
+    REQUIRE(commands.size() == 10);
+    CHECK(commands[1].out.find("wrote glove.tss: 6 parts, 5 joints, 6 pairs") != std::string::npos);
+    // The glove's fingers meet before they are as its animation has them.
+    CHECK(commands[3].out.find("slid") != std::string::npos);
     CHECK(readText(folder.path() / "again.tss") == readText(folder.path() / "baked.tss"));
     CHECK(readText(folder.path() / "arm_out.usda").find("physics:filteredPairs") != std::string::npos);
 }
