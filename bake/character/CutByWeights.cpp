@@ -103,7 +103,7 @@ private:
     }
 
     BodyPart& part(int body, std::size_t mesh) {
-        return parts_.try_emplace(body, BodyPart{mesh, {}}).first->second;
+        return parts_.try_emplace(body, BodyPart{mesh, {}, {}}).first->second;
     }
 
     /// The heaviest holder of a vertex that is of this body, or the other one.
@@ -155,9 +155,12 @@ private:
             for (std::size_t k = 0; k < 3; ++k)
                 edges.insert({triangle.vertices[k], triangle.vertices[(k + 1) % 3], triangle.body});
         for (const auto& [from, to, body] : edges) {
-            const auto back = edges.lower_bound({to, from, -1});
-            const bool any = back != edges.end() && (*back)[0] == to && (*back)[1] == from;
-            if (any && !edges.contains({to, from, body})) rims_[body].insert({from, to});
+            if (edges.contains({to, from, body})) continue;
+            for (auto back = edges.lower_bound({to, from, -1});
+                 back != edges.end() && (*back)[0] == to && (*back)[1] == from; ++back) {
+                rims_[body].insert({from, to});
+                parts_.at(body).neighbours.insert((*back)[2]);
+            }
         }
     }
 

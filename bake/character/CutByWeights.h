@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,10 @@ struct HeldMesh {
 
 /// What a body has of the meshes.
 struct BodyPart {
-    std::size_t mesh = 0;    ///< the first that it has something of
-    TriangleMesh surface;    ///< in the body's frame
-    std::size_t dropped = 0; ///< triangles left out since a corner is no finite point; of the loose holder
+    std::size_t mesh = 0;     ///< the first that it has something of
+    TriangleMesh surface;     ///< in the body's frame
+    std::set<int> neighbours; ///< bodies whose parts went on where this one was cut off
+    std::size_t dropped = 0;  ///< triangles left out since a corner is no finite point; of the loose holder
 };
 
 /// The meshes cut into parts, by body. A triangle is of the body whose holders weigh most at its corners.

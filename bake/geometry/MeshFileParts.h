@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/geometry/Import.h"
 #include "bake/geometry/MeshFile.h"
+#include "bake/geometry/RigFile.h"
 
 #include <optional>
 #include <string>
@@ -42,7 +43,10 @@ MeshFileNotes statedNotes(const std::string& file, const aiScene& scene);
 /// Serializes a mesh file, to hand it from one process of this program to another.
 std::string bytesOf(const MeshFile& file);
 
-/// The inverse of bytesOf(). Throws SubprocessFailed for bytes that are cut short.
+std::string bytesOf(const RigFile& file);
+
+/// The inverses of bytesOf(). Throw SubprocessFailed for bytes that are cut short.
 MeshFile meshFileOf(std::string_view bytes);
+RigFile rigFileOf(std::string_view bytes);
 
 } // namespace tss

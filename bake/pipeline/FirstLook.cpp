@@ -36,6 +36,21 @@ double firstTolerance(const SceneModel& scene, const Pair& pair, double distance
     return std::max(std::min(usualShare * smaller, roomShare * distance), smaller / 500);
 }
 
+/// The mesh of each body as it is asked for, made once.
+class Surfaces {
+public:
+    explicit Surfaces(const SceneModel& scene) : scene_(scene), surfaces_(scene.bodies.size()) {}
+
+    const MeshQuery& of(int body) {
+        if (!surfaces_[body]) surfaces_[body].emplace(scene_.bodies[body].mesh);
+        return *surfaces_[body];
+    }
+
+private:
+    const SceneModel& scene_;
+    std::vector<std::optional<MeshQuery>> surfaces_;
+};
+
 } // namespace
 
 bool isLongChain(const SceneModel& scene, const Pair& pair) {
@@ -43,11 +58,7 @@ bool isLongChain(const SceneModel& scene, const Pair& pair) {
 }
 
 std::vector<double> distancesAtRest(const SceneModel& scene) {
-    std::vector<std::optional<MeshQuery>> surfaces(scene.bodies.size());
-    const auto surfaceOf = [&](int body) -> const MeshQuery& {
-        if (!surfaces[body]) surfaces[body].emplace(scene.bodies[body].mesh);
-        return *surfaces[body];
-    };
+    Surfaces surfaces(scene);
     std::vector<double> distances;
     for (const Pair& pair : scene.pairs) {
         const TriangleMesh &a = scene.bodies[pair.bodyA].mesh, &b = scene.bodies[pair.bodyB].mesh;
@@ -55,7 +66,7 @@ std::vector<double> distancesAtRest(const SceneModel& scene) {
         if (!a.empty() && !b.empty()) {
             const Motion motion = pairMotion(scene, pair);
             const Pose bToA = pose(motion, restValues(motion));
-            const MeshQuery &surfaceA = surfaceOf(pair.bodyA), &surfaceB = surfaceOf(pair.bodyB);
+            const MeshQuery &surfaceA = surfaces.of(pair.bodyA), &surfaceB = surfaces.of(pair.bodyB);
             const double far = nearShare * smallerDiagonal(scene, pair);
             distance = surfaceA.distanceTo(surfaceB, bToA, far);
             if (distance <= touchingDistance(a, b, motion)) distance = 0;
@@ -66,6 +77,24 @@ std::vector<double> distancesAtRest(const SceneModel& scene) {
         distances.push_back(distance);
     }
     return distances;
+}
+
+std::vector<double> sharesCrossing(const SceneModel& scene, int poses) {
+    Surfaces surfaces(scene);
+    std::vector<double> shares(scene.pairs.size(), 0);
+    const double step = (scene.endTimeCode - scene.startTimeCode) / std::max(poses - 1, 1);
+    for (int k = 0; k < poses; ++k) {
+        const std::vector<Pose> placed =
+            posedBodies(scene, drivenValues(scene, scene.startTimeCode + k * step));
+        for (std::size_t p = 0; p < shares.size(); ++p) {
+            const auto& [a, b] = std::pair(scene.pairs[p].bodyA, scene.pairs[p].bodyB);
+            if (scene.bodies[a].mesh.empty() || scene.bodies[b].mesh.empty()) continue;
+            const double near = 1e-6 * smallerDiagonal(scene, scene.pairs[p]);
+            const Pose bToA = placed[a].inverse(Eigen::Isometry) * placed[b];
+            if (surfaces.of(a).distanceTo(surfaces.of(b), bToA, near) < near) shares[p] += 1.0 / poses;
+        }
+    }
+    return shares;
 }
 
 double usualTolerance(const SceneModel& scene) {

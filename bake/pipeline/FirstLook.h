@@ -14,6 +14,10 @@ bool isLongChain(const SceneModel& scene, const Pair& pair);
 /// more than that, which is quick: room beyond makes no tolerance of setFirstTolerances() another.
 std::vector<double> distancesAtRest(const SceneModel& scene);
 
+/// Of each pair the share of so many poses of the scene's motion, evenly spaced in time, at which the
+/// surfaces of its bodies cross.
+std::vector<double> sharesCrossing(const SceneModel& scene, int poses);
+
 /// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
 double usualTolerance(const SceneModel& scene);
 

@@ -160,33 +160,24 @@ private:
             }
             meshes.push_back(std::move(held));
         }
-        for (auto& [body, part] : cutByWeights(holders, meshes)) {
-            if (part.surface.empty()) continue;
+        std::map<int, BodyPart> parts = cutByWeights(holders, meshes);
+        addSeams(parts);
+        for (auto& [body, part] : parts) {
             RobotLink& link = robot_.links[first_ + body];
             RobotShape shape;
             shape.mesh = std::make_shared<const TriangleMesh>(std::move(part.surface));
             shape.where = link.name;
             link.collision = link.visual = {shape};
         }
-        addSeams();
     }
 
-    /// Two bones that follow one another and hold one mesh together.
-    void addSeams() {
-        std::vector<std::set<int>> holding; // bodies, of each mesh
-        for (const Character::Mesh& mesh : character_.meshes) {
-            std::set<int>& bodies = holding.emplace_back();
-            for (const auto& weights : mesh.weights)
-                for (const auto& [bone, weight] : weights) bodies.insert(bodyOf_[bone]);
-        }
-        const auto isEmpty = [&](int bone) { return robot_.links[first_ + bone].collision.empty(); };
-        for (int b = 0; b < static_cast<int>(bodyOf_.size()); ++b) {
+    /// Two bones that follow one another and of which the one's body was cut off the other's.
+    void addSeams(const std::map<int, BodyPart>& parts) {
+        for (const auto& [b, part] : parts) {
             int above = character_.bones[b].parent;
-            while (above >= 0 && isEmpty(above)) above = character_.bones[above].parent;
-            const bool joined = above >= 0 && std::ranges::any_of(holding, [&](const std::set<int>& bodies) {
-                                    return bodies.contains(above) && bodies.contains(b);
-                                });
-            if (joined) robot_.seams.emplace_back(nameOf(above), nameOf(b));
+            while (above >= 0 && !parts.contains(above)) above = character_.bones[above].parent;
+            if (above >= 0 && part.neighbours.contains(above))
+                robot_.seams.emplace_back(nameOf(above), nameOf(b));
         }
     }
 

@@ -34,8 +34,9 @@ struct RobotScene {
 /// A scene of a robot: a body a link, its shapes one mesh in the link's frame (the other kind of shapes where
 /// it has none of the wanted one or one that cannot be had, noted; an Xform where it has none at all), a
 /// joint a joint, fixed ones too, so that every link keeps its name; the pairs of links that move against
-/// each other and are not switched off; and a motion that shows each joint. Throws InputError as findMesh
-/// does, where no link has a shape that can be had though some name one, and for too many triangles.
+/// each other and are not switched off; a skin a skin; and a motion that shows each joint. Throws InputError
+/// as findMesh does, where no link has a shape that can be had though some name one, and for too many
+/// triangles.
 RobotScene sceneOf(const Robot& robot, const RobotSceneRequest& request, const FindMesh& findMesh);
 
 } // namespace tss

@@ -1,6 +1,7 @@
 #include "bake/base/Error.h"
 #include "bake/geometry/Import.h"
 #include "bake/geometry/MeshAudit.h"
+#include "bake/geometry/RigFile.h"
 #include "bake/model/AddPair.h"
 #include "bake/model/ShowMotion.h"
 #include "bake/pipeline/BakeOptions.h"
@@ -115,14 +116,19 @@ void remarkLimits(const Motion& motion, const Console& console) {
 
 /// What makes no sense beside a robot's file. Not left to the parser, which would say so before it says of a
 /// misspelt option, whose value is taken for a robot's file, that there is none of that name.
-constexpr const char* notForRobots[] = {
-    "--a",       "--b",    "--dof",   "--b-offset", "--rest", "--meters-per-unit",
-    "--up-axis", "--body", "--joint", "--skin",     "--bone", "--muscle"};
+constexpr const char* notForRobots[] = {"--a",    "--b",     "--dof",  "--b-offset", "--rest",
+                                        "--body", "--joint", "--skin", "--bone",     "--muscle"};
+
+/// What such a file says itself, but not the mesh formats of characters.
+constexpr const char* ofMeshes[] = {"--meters-per-unit", "--up-axis"};
 
 /// A robot's file, or two meshes and a motion: one of the two, and all of it.
 void checkUsage(const MakeArguments& arguments, const CLI::App& command) {
     if (!arguments.robot.input.empty())
         for (const char* option : notForRobots)
+            if (command.count(option) > 0) throw CLI::ExcludesError(option, "a robot's file");
+    if (!arguments.robot.input.empty() && !isRigName(arguments.robot.input))
+        for (const char* option : ofMeshes)
             if (command.count(option) > 0) throw CLI::ExcludesError(option, "a robot's file");
     if (!arguments.robot.input.empty() || arguments.isWhole()) return;
     if (arguments.a.empty()) throw CLI::RequiredError("--a, or --body, or a robot's file");
@@ -167,9 +173,13 @@ void makePair(const MakeArguments& arguments, const Console& console) {
 void make(MakeArguments& arguments, const CLI::App& command, const Console& console) {
     checkUsage(arguments, command);
     expectScene(arguments.output);
-    if (!arguments.robot.input.empty())
+    if (command.count("--meters-per-unit") > 0 || arguments.robot.input.empty())
+        arguments.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
+    if (!arguments.robot.input.empty()) {
+        if (command.count("--meters-per-unit") > 0) arguments.robot.metersPerUnit = arguments.metersPerUnit;
+        if (!arguments.upAxis.empty()) arguments.robot.upAxis = arguments.upAxis[0];
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
-    arguments.metersPerUnit = parseUnit(arguments.unit, "--meters-per-unit");
+    }
     arguments.pairs = arguments.robot.pairs;
     arguments.offsets = arguments.robot.offsets;
     arguments.isWhole() ? makeWholeScene(arguments, console) : makePair(arguments, console);
@@ -179,8 +189,8 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
     RobotFile& robot = arguments->robot;
     CLI::Option* input = command.add_option(
         "robot", robot.input,
-        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, or .usda with UsdPhysics or "
-        "UsdSkel");
+        "a robot's file, in place of --a, --b and --dof: URDF, MJCF of MuJoCo, .usda with UsdPhysics or "
+        "UsdSkel, or a rigged character as .glb, .gltf, .fbx, .dae and others");
     for (CLI::Option* option : addRobotFileOptions(command, robot)) option->needs(input);
     command
         .add_option(

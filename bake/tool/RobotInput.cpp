@@ -2,8 +2,10 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/pipeline/FirstLook.h"
 #include "bake/robot/MeshFiles.h"
+#include "bake/robot/ReadRig.h"
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/scene/Utf8.h"
@@ -15,7 +17,9 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 
 namespace tss::tool {
 
@@ -109,10 +113,32 @@ MadeScene readUsdScene(const std::string& file, const Packages&, const RobotScen
 
 #endif
 
+/// Bones of characters that their animation has in each other half of the time or more are no pair: they
+/// would hold it all along, and what is cut out of one mesh lies in each other where it bends.
+void leaveOutHolding(RobotScene& made) {
+    constexpr int poses = 24;
+    SceneModel& scene = made.scene;
+    const std::vector<double> shares = sharesCrossing(scene, poses);
+    std::vector<std::string> names;
+    std::size_t next = 0;
+    std::erase_if(scene.pairs, [&](const Pair& pair) {
+        const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
+        if (shares[next++] < 0.5 || a.visible || b.visible) return false;
+        names.push_back(primName(a.path) + " and " + primName(b.path));
+        return true;
+    });
+    if (!names.empty())
+        made.notes.push_back(
+            "no pair: bones that the animation has in each other half of the time or more, by "
+            "which they would be held: " +
+            firstOf(names, 10));
+}
+
 } // namespace
 
 MadeScene newScene(const Robot& robot, const RobotSceneRequest& request, const FindMesh& find) {
     MadeScene made{sceneOf(robot, request, find), {}};
+    if (!robot.skins.empty()) leaveOutHolding(made);
     made.distances = distancesAtRest(made.scene);
     setFirstTolerances(made.scene, made.distances);
     return made;
@@ -164,8 +190,31 @@ bool isRobot(const std::string& file) {
     return root == "robot" || root == "mujoco";
 }
 
+namespace {
+
+/// The scene of a rigged character in a mesh file.
+MadeScene readRigScene(const RobotFile& from, const RobotSceneRequest& request) {
+    const RigFile rig = readRigFile(from.input);
+    Robot robot = rigRobot(rig, from.input);
+    if (from.metersPerUnit > 0) robot.metersPerUnit = from.metersPerUnit;
+    if (from.upAxis != '\0') robot.upAxis = from.upAxis;
+    const double stated = rig.notes.metersPerUnit;
+    if (stated > 0 && std::abs(stated - robot.metersPerUnit) > 1e-5 * stated)
+        robot.notes.push_back(
+            fmt::format("the file says that one of its units, as it is read, is {:.6g} m", stated));
+    if (!(stated > 0) && !(from.metersPerUnit > 0))
+        robot.notes.push_back("the file does not say how long its unit is: 1 m is taken; --meters-per-unit");
+    if (rig.notes.upAxis == '\0' && from.upAxis == '\0')
+        robot.notes.push_back("the file does not say which way is up: Z is taken; --up-axis Y");
+    moveLinks(robot, from.offsets);
+    const FindMesh none = [](const std::string& name) -> std::string { return name; };
+    return newScene(robot, request, none);
+}
+
+} // namespace
+
 MadeScene readRobotScene(const RobotFile& from) {
-    if (isMeshName(from.input))
+    if (isMeshName(from.input) && !isRigName(from.input))
         throw InputError(Where{from.input},
                          "is a mesh; expected a robot's file, or two meshes as --a and --b");
     if (from.input.ends_with(".tss"))
@@ -173,6 +222,10 @@ MadeScene readRobotScene(const RobotFile& from) {
     RobotSceneRequest request;
     request.visual = from.geometry == "visual";
     request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    if (isRigName(from.input)) {
+        if (!from.srdf.empty()) throw CLI::ValidationError("--srdf", "is for URDF and MJCF");
+        return readRigScene(from, request);
+    }
     const Packages packages = parsePackages(from.packages);
     if (isUsd(from.input)) {
         if (!from.srdf.empty())

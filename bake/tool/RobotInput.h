@@ -6,11 +6,13 @@ namespace tss::tool {
 
 /// A robot's file, and how it is read.
 struct RobotFile {
-    std::string input;                 ///< URDF, MJCF or .usda
+    std::string input;                 ///< URDF, MJCF, .usda, or a rigged character of a mesh format
     std::vector<std::string> packages; ///< "NAME=DIR"
     std::string srdf;                  ///< a file; empty: none
     std::vector<std::string> offsets;  ///< "LINK=X,Y,Z", see moveLinks()
     std::string geometry = "collision", pairs = "all";
+    double metersPerUnit = 0; ///< of a character; 0: what its file states
+    char upAxis = '\0';       ///< the same, 'Y' or 'Z'
 };
 
 /// The link of that name. Throws InputError that quotes the option and names all there are.

@@ -231,6 +231,7 @@ TEST_CASE("what a robot's file needs and has not is exit 1 with the place, and l
     refused("alone/arm.urdf -o alone/arm.urdf --package my_arm=moved", 1, "ends in .tss");
     refused("moved/upper.obj -o out.tss", 1,
             "is a mesh; expected a robot's file, or two meshes as --a and --b");
+    refused("alone/arm.urdf -o out.tss --meters-per-unit 1mm", 2, "--meters-per-unit");
     refused("without.tss -o out.tss", 1, "is a scene already");
     refused("alone/arm.urdf -o out.tss --pairs some", 2, "neighbours");
     refused("alone/arm.urdf -o out.tss --a moved/upper.obj", 2, "--a");

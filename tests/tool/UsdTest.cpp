@@ -3,6 +3,7 @@
 #include "tests/tool/Shell.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 using Json = nlohmann::json;
@@ -18,6 +19,23 @@ TEST_CASE("every command of docs/USD.md does what it says, one after the other")
     CHECK(commands[3].out.find("slid") != std::string::npos);
     CHECK(readText(folder.path() / "again.tss") == readText(folder.path() / "baked.tss"));
     CHECK(readText(folder.path() / "arm_out.usda").find("physics:filteredPairs") != std::string::npos);
+}
+
+TEST_CASE("bones that an animation has in each other half of the time or more are no pair, by name") {
+    const Folder folder;
+    std::string glove = readText(OSGTSS_SOURCE_DIR "/examples/arm/glove.usda");
+    const auto first = glove.find("                0: [("), closed = glove.find("                24: [(");
+    const auto end = glove.find("                36: [(");
+    REQUIRE(end != glove.npos);
+    const std::string keys = glove.substr(closed + 20, end - closed - 20);
+    glove.replace(first + 19, closed - first - 19, keys); // it begins as closed as it comes to be
+    std::ofstream(folder / "glove.usda") << glove;
+    const Ran made = runTss("make glove.usda -o glove.tss", folder.path());
+    INFO(made.out << made.err);
+    CHECK(made.out.find(
+              "no pair: bones that the animation has in each other half of the time or more, by which "
+              "they would be held: LeftTip and RightTip\n") != std::string::npos);
+    CHECK(made.out.find("5 joints, 5 pairs") != std::string::npos);
 }
 
 #ifdef OSGTSS_HAVE_URDF

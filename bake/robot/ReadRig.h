@@ -1,0 +1,14 @@
+#pragma once
+#include "bake/geometry/RigFile.h"
+#include "bake/robot/Robot.h"
+
+namespace tss {
+
+/// The rigged character, or the machine of animated nodes, that a mesh file holds (addCharacter()): nodes
+/// that are bones or that an animation moves, and those between them. Meshes that have no bones go with the
+/// node that they hang below. They rest as the meshes are bound, carried to where the file has their first
+/// bone. Nodes that nothing moves are links of their own, fixed to the world. metersPerUnit and upAxis are
+/// what the file states, or 1 and Z. Throws InputError for a file in which nothing moves, or without faces.
+Robot rigRobot(const RigFile& rig, const std::string& file);
+
+} // namespace tss
