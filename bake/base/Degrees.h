@@ -1,6 +1,5 @@
 #pragma once
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 
 namespace tss {

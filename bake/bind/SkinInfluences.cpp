@@ -4,7 +4,6 @@
 #include "bake/base/Parallel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace tss {

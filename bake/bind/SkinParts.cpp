@@ -5,7 +5,6 @@
 #include "bake/base/UnionFind.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 

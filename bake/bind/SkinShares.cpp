@@ -5,7 +5,6 @@
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace tss {

@@ -10,7 +10,6 @@
 #include "bake/table/Query.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tss {
 

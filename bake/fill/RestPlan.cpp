@@ -1,7 +1,6 @@
 #include "bake/fill/RestPlan.h"
 
 #include "bake/base/Error.h"
-#include "bake/geometry/MeshAudit.h"
 #include "bake/spheres/GenerateSpheres.h"
 
 #include <algorithm>

@@ -11,7 +11,6 @@
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace tss {

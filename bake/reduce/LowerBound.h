@@ -1,5 +1,4 @@
 #pragma once
-#include "bake/reduce/CoverProof.h"
 
 #include <span>
 

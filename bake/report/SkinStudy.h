@@ -1,5 +1,4 @@
 #pragma once
-#include "bake/compare/CollisionMethod.h"
 #include "bake/compare/Ellipsoid.h"
 #include "bake/report/SkinMotion.h"
 #include "bake/report/Study.h"

@@ -1,7 +1,6 @@
 #include "bake/scene/WriteLayer.h"
 
 #include "bake/base/AtomicFile.h"
-#include "bake/base/NearestFloat.h"
 #include "bake/scene/Buffers.h"
 #include "bake/scene/LayerMembers.h"
 #include "bake/scene/Utf8.h"

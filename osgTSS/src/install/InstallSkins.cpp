@@ -3,7 +3,6 @@
 #include "osgTSS/src/EachNode.h"
 #include "osgTSS/src/NodePaths.h"
 #include "osgTSS/src/draw/BodyNodes.h"
-#include "osgTSS/src/draw/DrawnVertices.h"
 #include "osgTSS/src/extract/FindQuietly.h"
 #include "osgTSS/src/extract/SoftParts.h"
 #include "osgTSS/src/extract/SoftTags.h"

@@ -7,7 +7,6 @@
 #include <osg/Node>
 #include <osgTSS/Scene>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
