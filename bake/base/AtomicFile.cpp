@@ -1,8 +1,5 @@
 #include "bake/base/AtomicFile.h"
 
-#include "bake/base/Error.h"
-#include "bake/base/GitLfs.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <climits>

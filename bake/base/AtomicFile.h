@@ -1,4 +1,6 @@
 #pragma once
+#include "bake/base/Error.h"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,5 +19,13 @@ std::string readWholeFile(const std::string& file);
 
 /// A path is that of a folder, or of something below it; both are canonical.
 bool isWithin(const std::filesystem::path& path, const std::filesystem::path& folder);
+
+/// Git LFS keeps a short text in place of each large file that has not been fetched. Throws InputError where
+/// a file begins like one.
+inline void expectFetched(const std::string& file, std::string_view begin) {
+    if (begin.starts_with("version https://git-lfs.github.com/spec/"))
+        throw InputError(Where{file},
+                         "is a pointer of Git LFS; expected the file that it stands for: git lfs pull");
+}
 
 } // namespace tss

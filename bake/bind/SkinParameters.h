@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
-#include "bake/motion/BoneSwing.h"
+#include "bake/motion/BoneChain.h"
 
 #include <span>
 #include <vector>

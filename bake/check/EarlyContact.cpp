@@ -2,14 +2,11 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
-#include "bake/motion/RandomPoses.h"
+#include "bake/motion/Motion.h"
 #include "bake/pipeline/FillPair.h"
 #include "bake/search/SampledSearch.h"
-#include "bake/table/EarlyBound.h"
-#include "bake/table/PreparedTable.h"
 #include "bake/table/Query.h"
-
-#include <algorithm>
+#include "bake/table/Table.h"
 
 namespace tss {
 

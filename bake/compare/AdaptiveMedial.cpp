@@ -2,7 +2,7 @@
 #include "bake/compare/MeshTree.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/spheres/BallAround.h"
+#include "bake/spheres/SphereSet.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,7 +3,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/base/UnionFind.h"
-#include "bake/spheres/BallAround.h"
+#include "bake/spheres/SphereSet.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 #include "bake/compare/MeshTruth.h"
 
 #include "bake/compare/FclModel.h"
-#include "bake/motion/RandomPoses.h"
+#include "bake/motion/Motion.h"
 
 #include <algorithm>
 #include <cmath>

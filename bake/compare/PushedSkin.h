@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/motion/MuscleTrack.h"
-#include "bake/table/SkinTable.h"
+#include "bake/table/Table.h"
 
 #include <memory>
 

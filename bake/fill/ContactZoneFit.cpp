@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/fill/FittedBody.h"
 #include "bake/fill/HollowBodies.h"
-#include "bake/fill/NestedBodies.h"
 #include "bake/search/NearSurface.h"
 
 #include <algorithm>

@@ -3,9 +3,7 @@
 #include "bake/base/Parallel.h"
 #include "bake/fill/NestingCells.h"
 
-#include <algorithm>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <utility>

@@ -4,10 +4,8 @@
 
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
-#include "bake/base/GitLfs.h"
 #include "bake/base/Subprocess.h"
 #include "bake/base/Words.h"
-#include "bake/geometry/BlendShapes.h"
 #include "bake/geometry/MeshFileParts.h"
 #include "bake/geometry/SkinPlaces.h"
 

@@ -3,7 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/MeshAudit.h"
-#include "bake/geometry/MeshFile.h"
+#include "bake/geometry/MeshFileParts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "bake/base/Words.h"
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/Import.h"
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
 

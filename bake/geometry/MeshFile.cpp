@@ -1,4 +1,3 @@
-#include "bake/geometry/MeshFile.h"
 
 #ifdef OSGTSS_IMPORT
 

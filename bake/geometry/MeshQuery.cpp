@@ -5,7 +5,6 @@
 
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/TriangleDistance.h"
-#include "bake/geometry/TrianglePoint.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 namespace tss {
 
-// Part of readMeshFile(), of builds with OSGTSS_IMPORT.
+// Parts of readMeshFile(), of builds with OSGTSS_IMPORT.
 
 inline Eigen::Affine3d placeOf(const aiMatrix4x4& m) {
     return Eigen::Affine3d(Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>::Map(m[0]).cast<double>().eval());
@@ -23,5 +23,10 @@ using NodePlaces = std::map<std::string, Eigen::Affine3d>;
 /// it was bound, or are not all there. ofNode: where the mesh's node stands.
 std::vector<Eigen::Affine3d> skinPlaces(const aiMesh& mesh, const NodePlaces& nodes,
                                         const Eigen::Affine3d& ofNode);
+
+/// Puts the vertices of each mesh where its blend shapes take them as far as the file has these on, as
+/// viewers show a glTF while nothing is played. Of glTF alone: assimp gives a single shape of FBX the weight
+/// 1, whatever its file says.
+void applyBlendShapes(aiScene& scene);
 
 } // namespace tss

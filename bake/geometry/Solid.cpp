@@ -3,7 +3,7 @@
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/OpenEdges.h"
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <fmt/format.h>
 

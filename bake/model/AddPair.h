@@ -1,6 +1,8 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <set>
+
 namespace tss {
 
 /// Adds the joints that spell a motion of body B against body A in terms of USD physics, places B at the
@@ -23,5 +25,11 @@ int addJoint(SceneModel& scene, Joint joint, const std::string& name);
 /// A name that USD accepts ([A-Za-z_][A-Za-z0-9_]*), as near to the wanted one as can be, that no body, joint
 /// or muscle of the scene has yet under the root prim.
 std::string freePrimName(const SceneModel& scene, const std::string& wanted);
+
+/// A motion to look at, for a scene without one of its own: one degree of freedom after the other goes from
+/// rest to its lower limit, to its upper one and back, two seconds each, in the order of the scene's joints,
+/// but for the `others`, which something else moves; then one muscle after the other contracts and lets go.
+/// Ends where the last one does.
+void addShowMotion(SceneModel& scene, const std::set<std::size_t>& others = {});
 
 } // namespace tss

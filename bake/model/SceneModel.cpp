@@ -1,7 +1,5 @@
 #include "bake/model/SceneModel.h"
 
-#include <algorithm>
-
 namespace tss {
 
 namespace {

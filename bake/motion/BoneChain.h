@@ -1,4 +1,5 @@
 #pragma once
+#include "bake/motion/Motion.h"
 #include "bake/motion/PoseBlend.h"
 
 #include <span>
@@ -36,5 +37,9 @@ private:
     std::vector<Pose> bones_; ///< #n + 1, the first's the identity
     std::vector<DualPose> steps_;
 };
+
+/// The motion of all bodies under a skin while one joint value goes from rest to a limit, sampled: #samples
+/// of #bodies poses, each the motion since rest of the bone that the body moves with, in the skin's frame.
+using BoneSwing = std::vector<std::vector<Pose>>;
 
 } // namespace tss

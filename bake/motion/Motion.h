@@ -2,6 +2,7 @@
 #include "bake/geometry/TriangleMesh.h"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -91,6 +92,10 @@ bool beyondLimits(const Motion& motion, std::span<const double> q);
 /// Clamps each DOF into its limits, then pulls q back into the planes by cyclic projection (at most 10000
 /// rounds; the result is inside for a non-empty Q up to 1e-12 of the range).
 std::vector<double> clampToLimits(const Motion& motion, std::span<const double> q);
+
+/// DOF values uniformly over the limits, from a seed; those outside the limit planes are drawn again. May
+/// give fewer where the planes leave next to nothing.
+std::vector<std::vector<double>> randomPoses(const Motion& motion, std::size_t count, std::uint64_t seed);
 
 /// Throws InputError for a motion that cannot be served: no finite limits, reversed limits, zero axis, bad
 /// path, limits and planes that leave no pose or not the rest.

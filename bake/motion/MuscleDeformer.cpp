@@ -3,7 +3,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Infinity.h"
 #include "bake/geometry/ConnectedParts.h"
-#include "bake/motion/MuscleMedial.h"
 #include "bake/motion/MuscleVolume.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "bake/motion/MuscleSpan.h"
 
-#include "bake/motion/MuscleMedial.h"
 #include "bake/motion/MuscleVolume.h"
 
 #include <algorithm>

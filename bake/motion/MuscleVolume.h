@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
+#include "bake/motion/ClosestPointQuery.h"
 
 #include <array>
 #include <span>
@@ -33,5 +34,11 @@ double swellingFor(double wanted, const std::array<double, 4>& cubic, double sta
 /// so that its slope is nowhere less than leastSlope, > 0. Where the slope is no less anyway, the root
 /// itself.
 double boundedSwelling(const std::array<double, 4>& cubic, double leastSlope, double least, double most);
+
+/// For each vertex of a closed surface the vector from the medial surface to it: the radius of the largest
+/// inscribed ball that touches there along the smoothed normal, both smoothed over the surface so that coarse
+/// or rough meshes thicken evenly, and not less than by what fills the volume (METHOD 6.1). #V, scene units.
+std::vector<Vec3> medialOffsets(const TriangleMesh& mesh, const ClosestPointQuery& locator,
+                                const std::vector<Vec3>& normals);
 
 } // namespace tss

@@ -1,5 +1,8 @@
 #pragma once
+#include "bake/geometry/TriangleMesh.h"
+
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace tss {
 
@@ -20,5 +23,10 @@ SingularValues singularValues(const Eigen::Matrix3d& matrix);
 /// Minimum-norm least-squares solution of matrix * x = right; the matrix may be singular.
 Eigen::Matrix<double, 6, 1> leastSolution(const Eigen::Matrix<double, 6, 6>& matrix,
                                           const Eigen::Matrix<double, 6, 1>& right);
+
+/// The smallest rotation that takes the direction of one vector to that of the other, neither of them zero;
+/// of opposite ones a half turn about some axis. Accurate to rounding also for nearly opposite vectors, for
+/// which Eigen's FromTwoVectors is off by up to 1e-5 and not of unit length, and without its header's SVD.
+Eigen::Quaterniond turnBetween(const Vec3& from, const Vec3& to);
 
 } // namespace tss

@@ -1,7 +1,6 @@
 #include "bake/pipeline/Bake.h"
 
 #include "bake/base/Parallel.h"
-#include "bake/base/Stopwatch.h"
 #include "bake/model/SourceHash.h"
 #include "bake/pipeline/BakePair.h"
 #include "bake/pipeline/BakeSkin.h"

@@ -6,7 +6,6 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
 #include "bake/motion/WholeTurn.h"
-#include "bake/pipeline/BoundTable.h"
 #include "bake/pipeline/SelectTests.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/search/RestContact.h"

@@ -23,4 +23,12 @@ class BudgetEnded : public InputError {
 Selection selectTests(const PairTask& task, const CandidatePairs& candidates, std::vector<std::string>& notes,
                       const Progress& progress);
 
+/// Turns the clearance of the spheres in a proof into that of the meshes, which is less by both coverages.
+/// Where nothing is left, or the meshes meet at rest, the proof is dropped and leaves a certified table
+/// without tests.
+void boundProof(Selection& selection, const PairTask& task);
+
+/// Fills in the bounds of a certified table against the meshes, the exempt region apart (METHOD 3.5).
+void boundTable(Table& table, const PairTask& task);
+
 } // namespace tss

@@ -3,7 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
-#include "bake/motion/LimitRounding.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/play/ChainPoses.h"
 #include "bake/table/TableKernels.h"
 

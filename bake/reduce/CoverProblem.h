@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/motion/MotionBound.h"
 #include "bake/search/CandidatePairs.h"
-#include "bake/search/ConcurrentPairs.h"
 #include "bake/search/SphereTree.h"
 
 #include <memory>

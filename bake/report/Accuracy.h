@@ -1,6 +1,5 @@
 #pragma once
 #include "bake/compare/CollisionMethod.h"
-#include "bake/compare/ComparedPair.h"
 #include "bake/compare/MeshTruth.h"
 #include "bake/geometry/Solid.h"
 

@@ -3,8 +3,6 @@
 #include "bake/base/Degrees.h"
 #include "bake/report/Text.h"
 
-#include <fmt/format.h>
-
 namespace tss::reporting {
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 #include "bake/base/Words.h"
+#include "bake/model/SceneModel.h"
 #include "bake/report/SkinStudy.h"
 #include "bake/report/Study.h"
 
@@ -43,5 +44,15 @@ std::vector<Plot> drawPlots(const PairStudy& study, const std::string& folder, c
 /// The same for a skin.
 std::vector<Plot> drawPlots(const SkinStudy& study, const std::string& folder, const std::string& stem,
                             std::string& problem);
+
+/// A drawing of two bodies.
+struct Picture {
+    std::string caption;
+    std::string png; ///< the file's bytes; what is not covered is transparent
+};
+
+/// The bodies of a pair where the joint rests and where its leading DOF is at either limit, all from the same
+/// side: along the axis of a DOF that turns, else from the front.
+std::vector<Picture> picturesOf(const SceneModel& scene, const Pair& pair, std::size_t leadingDof);
 
 } // namespace tss::reporting

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/compare/ComparedPair.h"
+#include "bake/compare/CollisionMethod.h"
 #include "bake/pipeline/BakePair.h"
 
 namespace tss::reporting {

@@ -1,7 +1,7 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/motion/DofUnits.h"
-#include "bake/motion/RandomPoses.h"
+#include "bake/motion/Motion.h"
 #include "bake/report/Study.h"
 
 #include <fmt/format.h>
@@ -124,6 +124,18 @@ void describe(PairStudy& study, const SceneModel& scene, const Pair& pair, const
 }
 
 } // namespace
+
+std::string unitOf(const Dof& dof, double metersPerUnit) {
+    switch (dof.kind) {
+    case DofKind::Rotation:
+        return "degrees";
+    case DofKind::Translation:
+        return "times " + lengthText(dof.axis.norm(), metersPerUnit);
+    case DofKind::Path:
+        return "of its path";
+    }
+    return "";
+}
 
 PairStudy studyPair(const SceneModel& scene, const Pair& pair, const ReportOptions& options,
                     const Progress& progress) {

@@ -311,6 +311,17 @@ std::string sweepSection(const PairStudy& study, const std::vector<Plot>& plots)
 
 } // namespace
 
+std::vector<const Row*> paretoFront(const std::vector<Row>& rows, const std::function<double(const Row&)>& x,
+                                    const std::function<double(const Row&)>& y) {
+    std::vector<const Row*> sorted, front;
+    for (const Row& row : rows)
+        if (x(row) > 0 && !row.slow()) sorted.push_back(&row);
+    std::ranges::stable_sort(sorted, [&](const Row* a, const Row* b) { return x(*a) < x(*b); });
+    for (const Row* row : sorted)
+        if (front.empty() || y(*row) < y(*front.back())) front.push_back(row);
+    return front;
+}
+
 std::string pairText(const PairStudy& study, const std::vector<Plot>& plots, bool besidePaper) {
     std::string text = fmt::format("## {}\n\n", study.path) + facts(study);
     if (study.never)

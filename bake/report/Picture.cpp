@@ -1,4 +1,4 @@
-#include "bake/report/Picture.h"
+#include "bake/report/Drawing.h"
 
 #include "bake/motion/DofUnits.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/compare/Machine.h"
 #include "bake/report/Drawing.h"
-#include "bake/report/Picture.h"
 #include "bake/report/SkinStudy.h"
 #include "bake/report/Study.h"
 

@@ -1,6 +1,6 @@
 #include "bake/base/Parallel.h"
 #include "bake/motion/DofUnits.h"
-#include "bake/motion/RandomPoses.h"
+#include "bake/motion/Motion.h"
 #include "bake/report/Study.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "bake/respond/JointClusters.h"
 #include "bake/table/TableKernels.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Infinity.h"
 #include "bake/base/Parallel.h"
-#include "bake/motion/MuscleMedial.h"
+#include "bake/motion/MuscleVolume.h"
 #include "bake/respond/SkinRows.h"
 #include "bake/respond/SkinWalk.h"
 

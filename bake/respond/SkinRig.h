@@ -5,7 +5,7 @@
 #include "bake/motion/MuscleTrack.h"
 #include "bake/motion/PoseBlend.h"
 #include "bake/respond/SkinFoundation.h"
-#include "bake/table/SkinTable.h"
+#include "bake/table/Table.h"
 
 #include <memory>
 

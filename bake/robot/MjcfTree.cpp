@@ -1,6 +1,6 @@
 #include "bake/robot/MjcfTree.h"
 
-#include "bake/motion/TurnBetween.h"
+#include "bake/motion/SmallSystems.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/model/TimeSamples.h"
+#include "bake/model/SceneModel.h"
 #include "bake/motion/Motion.h"
 
 #include <memory>

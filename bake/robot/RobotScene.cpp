@@ -4,7 +4,6 @@
 #include "bake/base/Error.h"
 #include "bake/base/Words.h"
 #include "bake/model/AddPair.h"
-#include "bake/model/ShowMotion.h"
 #include "bake/robot/ReadMsh.h"
 #include "bake/robot/Shapes.h"
 #include "bake/scene/AllPairs.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "bake/geometry/TriangleMesh.h"
-#include "bake/model/TimeSamples.h"
+#include "bake/model/SceneModel.h"
 #include "bake/scene/Layer.h"
 #include "bake/scene/Problems.h"
 #include "bake/scene/Schema.h"

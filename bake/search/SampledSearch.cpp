@@ -3,7 +3,7 @@
 
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
-#include "bake/search/ConcurrentPairs.h"
+#include "bake/search/CandidatePairs.h"
 #include "bake/search/NodePairs.h"
 
 #include <algorithm>

@@ -4,8 +4,6 @@
 #include "bake/base/Parallel.h"
 #include "bake/geometry/Bvh.h"
 #include "bake/geometry/TriangleDistance.h"
-#include "bake/geometry/TrianglePoint.h"
-#include "bake/motion/BoneChain.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 #include "bake/base/Progress.h"
-#include "bake/motion/BoneSwing.h"
+#include "bake/motion/BoneChain.h"
 #include "bake/motion/MuscleTrack.h"
-#include "bake/table/SkinTable.h"
+#include "bake/table/Table.h"
 
 namespace tss {
 

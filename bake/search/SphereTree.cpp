@@ -1,6 +1,6 @@
 #include "bake/search/SphereTree.h"
 
-#include "bake/spheres/BallAround.h"
+#include "bake/spheres/SphereSet.h"
 
 #include <algorithm>
 #include <numeric>

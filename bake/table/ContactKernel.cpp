@@ -6,7 +6,7 @@
 #include <hwy/highway.h>
 
 #include "bake/table/ContactTest.h"
-#include "bake/table/KernelsVector.h"
+#include "bake/table/Kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tss {

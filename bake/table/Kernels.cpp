@@ -1,4 +1,4 @@
-#include "bake/table/KernelsVector.h"
+#include "bake/table/Kernels.h"
 
 namespace tss {
 

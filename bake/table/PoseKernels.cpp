@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bake/table/KernelsVector.h"
+#include "bake/table/Kernels.h"
 #include "bake/table/PosePlan.h"
 
 #include <algorithm>

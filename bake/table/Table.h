@@ -106,4 +106,29 @@ UsedSpheres usedSpheres(const Table& table);
 /// Bytes of its spheres, rows, columns and rest gaps.
 std::size_t tableBytes(const Table& table);
 
+/// A bound of the distance of the two solids, openings filled, where contact is reported: both protrusions
+/// and epsilon. It bounds the distance of the surfaces too, unless one body stands wholly inside the other;
+/// Table::boundEarly holds in that case as well. None: not known.
+inline std::optional<double> earlyOfSolids(const Table& table) {
+    const std::optional<double> a = table.record.fitA.protrusion, b = table.record.fitB.protrusion;
+    if (!table.certified || !a || !b) return std::nullopt;
+    return *a + *b + table.epsilon;
+}
+
+/// The same where that is known, else boundEarly.
+inline std::optional<double> earlyOfTable(const Table& table) {
+    const std::optional<double> solids = earlyOfSolids(table);
+    return solids ? solids : table.boundEarly;
+}
+
+/// The table of a skin over muscles: which skin spheres some muscle sphere can come to (METHOD 6.2). Skin
+/// that is in no row is not touched at all.
+struct SkinTable {
+    Table table; ///< a: skin spheres, b: muscle spheres at activation 0, both in the skin's frame; no DOFs
+    std::vector<std::uint32_t> skinVertices; ///< #a: the skin vertex that each skin sphere rides on
+    std::vector<std::uint32_t> muscleOf;     ///< #b: index in the skin's list of muscles
+    double travel =
+        0; ///< how far a skin vertex may stray from rest for the table to be complete, scene units
+};
+
 } // namespace tss

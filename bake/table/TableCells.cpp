@@ -4,7 +4,6 @@
 #include "bake/table/EvenParts.h"
 #include "bake/table/GapRanges.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>

@@ -1,9 +1,9 @@
 #include "bake/table/TableKernels.h"
 
 #include "bake/base/Error.h"
-#include "bake/table/EarlyBound.h"
 #include "bake/table/LikelyTests.h"
 #include "bake/table/RoundingBand.h"
+#include "bake/table/Table.h"
 
 #include <algorithm>
 #include <bit>

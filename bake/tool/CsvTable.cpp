@@ -4,7 +4,7 @@
 #include "bake/base/Error.h"
 #include "bake/base/Words.h"
 #include "bake/model/Kinematics.h"
-#include "bake/motion/LimitRounding.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/tool/DofSpec.h"
 

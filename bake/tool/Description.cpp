@@ -1,7 +1,6 @@
 #include "bake/tool/Summary.h"
 
 #include "bake/pipeline/BakeOptions.h"
-#include "bake/tool/Exempt.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,4 @@
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/BakeTimes.h"
 #include "bake/tool/Summary.h"
 
 #include <fmt/format.h>

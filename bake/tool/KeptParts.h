@@ -2,7 +2,7 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/model/SceneModel.h"
 #include "bake/pipeline/Bake.h"
-#include "bake/tool/BakeTimes.h"
+#include "bake/tool/Summary.h"
 
 namespace tss::tool {
 

@@ -3,7 +3,6 @@
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/RigFile.h"
 #include "bake/model/AddPair.h"
-#include "bake/model/ShowMotion.h"
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"

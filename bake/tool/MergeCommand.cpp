@@ -1,7 +1,7 @@
 #include "bake/base/Error.h"
 #include "bake/model/SourceHash.h"
 #include "bake/scene/SceneFile.h"
-#include "bake/tool/BakeTimes.h"
+#include "bake/tool/Summary.h"
 
 namespace tss::tool {
 

@@ -9,7 +9,6 @@
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/scene/Utf8.h"
-#include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_USDA
 #include "bake/usd/Stage.h"

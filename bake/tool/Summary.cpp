@@ -3,12 +3,14 @@
 #include "bake/check/EarlyContact.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/SourceHash.h"
-#include "bake/table/EarlyBound.h"
+#include "bake/table/Table.h"
 #include "bake/table/TableKernels.h"
 #include "bake/tool/DofSpec.h"
-#include "bake/tool/Exempt.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <sys/xattr.h>
 
 namespace tss::tool {
 
@@ -173,6 +175,65 @@ Json summary(const SceneModel& scene) {
     for (const SkinModel& skin : scene.skins) json["skins"].push_back(summary(scene, skin));
     json["metersPerUnit"] = scene.metersPerUnit;
     return json;
+}
+
+namespace {
+
+double bounded(double exempt) {
+    constexpr double rounding = 1e-12; // of sums of areas
+    const double share = 1 - exempt;
+    return share > rounding ? share : 0;
+}
+
+std::string percent(double share) {
+    const double tenths = std::floor(1000 * share); // of a percent
+    return share <= 0      ? "nothing"
+           : tenths < 1    ? "less than 0.1 %"
+           : tenths >= 999 ? "over 99.9 %"
+                           : fmt::format("{:.1f} %", tenths / 10);
+}
+
+} // namespace
+
+BoundedShares boundedShares(double exemptA, double exemptB) {
+    return {bounded(exemptA), bounded(exemptB)};
+}
+
+std::string boundedText(const BoundedShares& bounded) {
+    return fmt::format("{} of A and {} of B", percent(bounded.a), percent(bounded.b));
+}
+
+namespace {
+constexpr const char* attribute = "user.tss.seconds";
+constexpr std::size_t limit = 60000; // what common file systems take
+} // namespace
+
+void writeBakeTimes(const std::string& file, const BakeTimes& times) {
+    Json json(times);
+    const std::string text = json.dump();
+    // Best effort: a file system without extended attributes only leaves the figure unknown.
+    if (text.size() <= limit) ::setxattr(file.c_str(), attribute, text.data(), text.size(), 0);
+}
+
+BakeTimes readBakeTimes(const std::string& file) {
+    std::string text(limit, '\0');
+    const ssize_t size = ::getxattr(file.c_str(), attribute, text.data(), text.size());
+    if (size <= 0) return {};
+    text.resize(static_cast<std::size_t>(size));
+    const Json json = Json::parse(text, nullptr, false);
+    BakeTimes times;
+    if (json.is_object())
+        for (const auto& [path, seconds] : json.items())
+            if (seconds.is_number()) times[path] = seconds.get<double>();
+    return times;
+}
+
+void addTimes(Json& summary, const BakeTimes& times) {
+    for (const char* kind : {"pairs", "skins"})
+        for (Json& item : summary[kind]) {
+            const auto found = times.find(item["path"].get<std::string>());
+            if (found != times.end()) item["seconds"] = found->second;
+        }
 }
 
 } // namespace tss::tool

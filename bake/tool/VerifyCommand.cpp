@@ -6,7 +6,7 @@
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/DofSpec.h"
-#include "bake/tool/Exempt.h"
+#include "bake/tool/Summary.h"
 #include "bake/verify/Kernel.h"
 
 #include <algorithm>

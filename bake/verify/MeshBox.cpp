@@ -4,7 +4,6 @@
 #include "bake/geometry/TriangleDistance.h"
 #include "bake/verify/SeparatingAxis.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

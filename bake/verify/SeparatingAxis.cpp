@@ -1,6 +1,6 @@
 #include "bake/verify/SeparatingAxis.h"
 
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 
 #include <limits>
 

@@ -1,5 +1,4 @@
 #include "bake/base/Error.h"
-#include "bake/model/SceneModel.h"
 
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>

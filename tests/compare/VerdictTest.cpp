@@ -1,5 +1,5 @@
 #include "bake/compare/EnclosingTree.h"
-#include "bake/motion/RandomPoses.h"
+#include "bake/motion/Motion.h"
 #include "bake/table/Query.h"
 #include "tests/compare/Problems.h"
 

@@ -2,7 +2,6 @@
 
 #include "bake/base/Error.h"
 #include "bake/geometry/TriangleDistance.h"
-#include "bake/geometry/TrianglePoint.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <catch2/catch.hpp>

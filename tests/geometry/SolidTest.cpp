@@ -1,7 +1,7 @@
 #include "bake/geometry/Solid.h"
 
 #include "bake/geometry/MeshAudit.h"
-#include "bake/geometry/TrianglePoint.h"
+#include "bake/geometry/TriangleDistance.h"
 #include "tests/geometry/TestMeshes.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "bake/motion/TurnBetween.h"
+#include "bake/motion/SmallSystems.h"
 
 #include <catch2/catch.hpp>
 

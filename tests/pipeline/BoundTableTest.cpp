@@ -1,4 +1,4 @@
-#include "bake/pipeline/BoundTable.h"
+#include "bake/pipeline/SelectTests.h"
 
 #include <catch2/catch.hpp>
 

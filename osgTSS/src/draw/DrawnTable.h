@@ -1,14 +1,27 @@
 #pragma once
-#include "SphereGeometry.h"
-
 #include "bake/geometry/TriangleMesh.h"
+#include "bake/spheres/SphereSet.h"
 #include "bake/table/Table.h"
 
 #include <osg/Geometry>
+#include <osg/Vec4>
 
+#include <span>
 #include <vector>
 
 namespace osgTSS {
+
+/// Many spheres as one translucent geometry.
+class SphereGeometry : public osg::Geometry {
+public:
+    SphereGeometry(std::size_t count, const osg::Vec4& color);
+
+    /// Places all of them: `count` spheres. During cull traversals of DYNAMIC geometry only.
+    void place(std::span<const tss::Sphere> spheres);
+
+private:
+    osg::ref_ptr<osg::Vec3Array> _vertices;
+};
 
 /// Lines of one colour, drawn in front of everything: contact is where surfaces hide it.
 class Lines : public osg::Geometry {

@@ -2,7 +2,7 @@
 #include "NearPoints.h"
 
 #include "bake/geometry/MeshQuery.h"
-#include "bake/motion/TurnBetween.h"
+#include "bake/motion/SmallSystems.h"
 
 #include <osgTSS/Convert>
 

@@ -5,7 +5,6 @@
 #include <osgTSS/SkinGeometry>
 
 #include <stdexcept>
-#include <string>
 
 namespace osgTSS {
 

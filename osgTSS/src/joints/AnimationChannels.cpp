@@ -3,8 +3,6 @@
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
 
-#include <osgAnimation/AnimationManagerBase>
-
 #include <algorithm>
 
 namespace osgTSS {

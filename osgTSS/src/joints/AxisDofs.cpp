@@ -1,12 +1,16 @@
 #include "AxisDofs.h"
 
+#include "bake/base/Error.h"
 #include "bake/motion/AxisTurns.h"
+#include "bake/motion/DofUnits.h"
 #include "bake/motion/WholeTurn.h"
+#include "bake/scene/DofToken.h"
 
 #include <osg/Math>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace osgTSS {
 
@@ -63,6 +67,36 @@ double AxisDofs::beyond(const std::vector<double>& values, const std::array<doub
             sum += std::max({0.0, _dofs[k].lower - values[k], values[k] - _dofs[k].upper});
     for (std::size_t k = _turns; k < turns.size(); ++k) sum += std::abs(tss::nearestTurn(turns[k], 0));
     return sum;
+}
+
+namespace {
+
+tss::Dof parseDofWord(const std::string& word, const std::string& tag) {
+    std::istringstream text(word);
+    std::string token;
+    double lower = 0, upper = 0;
+    char colon = 0;
+    tss::Dof dof;
+    std::size_t path = 0;
+    std::getline(text, token, ':');
+    text >> lower >> colon >> upper;
+    if (text.fail() || colon != ':' || text.peek() != EOF || !tss::dofFromToken(token, dof, path) ||
+        dof.kind == tss::DofKind::Path || !(lower <= upper) || !std::isfinite(lower) || !std::isfinite(upper))
+        throw tss::InputError(tag + ": expected words such as rotZ:-24:18 or transX:0:5, found \"" + word +
+                              "\"");
+    dof.name = token;
+    dof.lower = tss::fromUser(dof, lower);
+    dof.upper = tss::fromUser(dof, upper);
+    return dof;
+}
+
+} // namespace
+
+std::vector<tss::Dof> parseDofWords(const std::string& words, const std::string& tag) {
+    std::istringstream text(words);
+    std::vector<tss::Dof> dofs;
+    for (std::string word; text >> word;) dofs.push_back(parseDofWord(word, tag));
+    return dofs;
 }
 
 } // namespace osgTSS

@@ -2,6 +2,7 @@
 #include "bake/motion/Motion.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace osgTSS {
@@ -29,5 +30,9 @@ private:
     std::array<int, 3> _order{}; ///< of the turns; axes that none is about come last
     std::size_t _turns = 0;
 };
+
+/// Words such as "rotZ:-24:18": a turn in degrees, or a slide in units of length, with its limits. `tag` is
+/// named in errors: throws tss::InputError for another word, and for reversed limits.
+std::vector<tss::Dof> parseDofWords(const std::string& words, const std::string& tag);
 
 } // namespace osgTSS

@@ -2,7 +2,6 @@
 
 #include "AxisDofs.h"
 #include "DofState.h"
-#include "DofWords.h"
 
 #include "bake/base/Error.h"
 

@@ -1,6 +1,5 @@
 #pragma once
 #include "bake/motion/DofUnits.h"
-#include "bake/motion/LimitRounding.h"
 #include "bake/motion/WholeTurn.h"
 
 #include <osg/observer_ptr>

@@ -2,7 +2,7 @@
 
 #include "bake/base/Error.h"
 #include "bake/motion/AxisTurns.h"
-#include "bake/motion/TurnBetween.h"
+#include "bake/motion/SmallSystems.h"
 #include "bake/motion/WholeTurn.h"
 
 #include <osgAnimation/StackedQuaternionElement>

@@ -1,7 +1,6 @@
 #include "JointKinds.h"
 
 #include "AxisDofs.h"
-#include "DofWords.h"
 #include "osgTSS/src/NodePaths.h"
 
 #include "bake/base/Error.h"

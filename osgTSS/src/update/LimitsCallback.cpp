@@ -7,7 +7,6 @@
 #include "osgTSS/src/joints/JointNodes.h"
 
 #include <osg/Node>
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/observer_ptr>
 #include <osgTSS/JointCallback>

@@ -1,5 +1,5 @@
 #pragma once
-#include "bake/table/SkinTable.h"
+#include "bake/table/Table.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "bake/search/ConcurrentPairs.h"
+#include "bake/search/CandidatePairs.h"
 
 #include <bit>
 
