@@ -1,17 +1,12 @@
 #pragma once
-#include <algorithm>
-#include <cstddef>
-#include <numeric>
-#include <vector>
+#include "bake/base/Order.h"
 
 namespace tss {
 
 /// Disjoint sets (union-find, Tarjan 1975). The root of a set is its member of lowest index.
 class UnionFind {
 public:
-    explicit UnionFind(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
+    explicit UnionFind(std::size_t count) : parent_(indicesOf<std::size_t>(count)) {}
 
     std::size_t root(std::size_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

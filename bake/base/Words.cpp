@@ -1,9 +1,10 @@
 #include "bake/base/Words.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <numeric>
 
 namespace tss {
 
@@ -23,8 +24,7 @@ std::string lowerCase(std::string word) {
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
+    std::vector<std::size_t> row = indicesOf<std::size_t>(b.size() + 1);
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t before = row[0]++;
         for (std::size_t j = 1; j <= b.size(); ++j) {

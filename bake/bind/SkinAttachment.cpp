@@ -1,6 +1,7 @@
 #include "bake/bind/SkinAttachment.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/bind/SkinNormals.h"
 #include "bake/bind/SkinSpans.h"
@@ -105,9 +106,7 @@ std::vector<double> holdOf(const SkinAnatomy& anatomy, std::size_t m, std::vecto
     });
     std::vector<double> over;
     std::ranges::copy_if(depth, std::back_inserter(over), [](double d) { return d > 0 && std::isfinite(d); });
-    const auto middle = over.begin() + static_cast<std::ptrdiff_t>(over.size() / 2);
-    std::nth_element(over.begin(), middle, over.end());
-    const double tissue = over.empty() ? 0 : *middle;
+    const double tissue = over.empty() ? 0 : median(over);
     std::vector<double> hold(count, 0);
     for (std::size_t v = 0; v < count; ++v) {
         if (!std::isfinite(depth[v])) continue;

@@ -1,10 +1,10 @@
 #include "bake/bind/SkinClaims.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 namespace {
@@ -92,9 +92,8 @@ std::vector<std::uint32_t> seedsByContrast(const SkinInfluence& influence,
     if (seeds.empty()) return seeds;
     const auto last =
         std::min(static_cast<std::size_t>(seedShare * static_cast<double>(seeds.size())), seeds.size() - 1);
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(last),
-                     distances.end());
-    std::erase_if(seeds, [&](std::uint32_t v) { return influence.distance[v] > distances[last]; });
+    const double most = valueAt(distances, last);
+    std::erase_if(seeds, [&](std::uint32_t v) { return influence.distance[v] > most; });
     return seeds;
 }
 
@@ -103,8 +102,7 @@ std::vector<std::uint32_t> seedsByContrast(const SkinInfluence& influence,
 /// is attached to.
 std::vector<double> gapsOf(const SkinGraph& graph, const std::vector<std::uint32_t>& influence,
                            const std::vector<double>& nearest, const std::vector<double>& second) {
-    std::vector<std::uint32_t> order(nearest.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::uint32_t> order = indicesOf(nearest.size());
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return nearest[a] < nearest[b]; });
     std::vector<double> gap = second;

@@ -1,7 +1,8 @@
 #include "bake/bind/SkinGraph.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
-#include <numeric>
 #include <queue>
 
 namespace tss {
@@ -43,8 +44,7 @@ SkinGraph skinGraph(const TriangleMesh& skin) {
     // A vertex without triangles, or with slivers only, still needs some mass in linear systems.
     const double least = count > 0 ? std::max(1e-2 * all / static_cast<double>(count), 1e-300) : 0;
     for (double& a : graph.area) a = std::max(a, least);
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sortOnce(edges);
     auto edge = edges.begin();
     for (std::uint32_t v = 0; v < count; ++v) {
         for (; edge != edges.end() && edge->first == v; ++edge) {
@@ -118,8 +118,7 @@ std::vector<std::uint32_t> alongCurve(const std::vector<Vec3>& points) {
         for (int k = 0; k < 3; ++k) bits |= dilatedBits(static_cast<std::uint64_t>(cell[k])) << k;
         code.push_back(bits);
     }
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(points.size());
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return code[a] < code[b]; });
     return order;

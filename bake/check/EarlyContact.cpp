@@ -1,5 +1,6 @@
 #include "bake/check/EarlyContact.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/motion/Motion.h"
@@ -24,12 +25,6 @@ double shareBelow(const std::vector<double>& lengths, double limit) {
     if (lengths.empty()) return 0;
     const auto below = std::ranges::count_if(lengths, [&](double l) { return l < limit; });
     return static_cast<double>(below) / static_cast<double>(lengths.size());
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + values.size() / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// A pair's table, and the same as it is asked at run time.

@@ -1,11 +1,11 @@
 // After Bradshaw and O'Sullivan, "Adaptive medial-axis approximation for sphere-tree construction", 2004.
 #include "bake/compare/MeshTree.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/spheres/SphereSet.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss::compare {
 
@@ -123,8 +123,7 @@ EnclosingTree buildAdaptiveMedial(const TriangleMesh& mesh, const Solid& solid, 
     EnclosingTree tree;
     const MedialSurface surface = medialSurface(mesh, solid);
     if (surface.elements.empty()) return tree;
-    Elements all(surface.elements.size());
-    std::iota(all.begin(), all.end(), 0u);
+    Elements all = indicesOf(surface.elements.size());
     const Sphere root = fitBall(surface, solid, all, {});
     tree.nodes.push_back({root.centre, root.radius, 0, 0});
     std::vector<std::pair<std::uint32_t, Elements>> open{{0, std::move(all)}};

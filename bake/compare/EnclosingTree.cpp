@@ -1,8 +1,9 @@
 #include "bake/compare/EnclosingTree.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <queue>
 
 namespace tss::compare {
@@ -35,8 +36,7 @@ EnclosingTree buildEnclosingTree(const SphereSet& spheres, int arity, Enclosure 
     const int levels = arity >= 8 ? 3 : arity >= 4 ? 2 : 1;
     EnclosingTree tree;
     if (spheres.empty()) return tree;
-    std::vector<std::uint32_t> order(spheres.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(spheres.size());
     struct Open {
         std::uint32_t node;
         std::span<std::uint32_t> range;

@@ -2,11 +2,11 @@
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/MeshTree.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/spheres/FitMetrics.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss::compare {
 
@@ -47,8 +47,7 @@ SphereSet restingSpheres(const TriangleMesh& mesh, const Solid& solid) {
 
 /// Largest first, a sphere is kept when it rests against a point that no kept one comes near to.
 SphereSet keepLargest(const TriangleMesh& mesh, const SphereSet& resting, double near) {
-    std::vector<std::uint32_t> order(resting.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(resting.size());
     std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
         return resting[i].radius != resting[j].radius ? resting[i].radius > resting[j].radius : i < j;
     });

@@ -1,5 +1,6 @@
 #include "bake/fill/Witnesses.h"
 
+#include "bake/base/Order.h"
 #include "bake/geometry/ConnectedParts.h"
 
 #include <algorithm>
@@ -66,8 +67,7 @@ void addBalls(const Solid& solid, PartWitnesses& part) {
 
 void addVertices(const TriangleMesh& mesh, PartWitnesses& part) {
     std::vector<std::size_t> found = farthestOut(mesh);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sortOnce(found);
     for (const std::size_t v : found) part.push_back({mesh.vertices[v]});
     // All over the part: the next is farthest from those before it.
     std::vector<double> apart(mesh.vertices.size(), std::numeric_limits<double>::infinity());

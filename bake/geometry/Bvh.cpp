@@ -2,8 +2,9 @@
 // 2007.
 #include "bake/geometry/Bvh.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
@@ -31,8 +32,7 @@ class Builder {
 public:
     Builder(std::span<const Box> boxes, std::uint32_t leafSize, const std::function<bool()>& stop)
         : boxes_(boxes), leafSize_(leafSize), stop_(stop) {
-        bvh_.items.resize(boxes.size());
-        std::iota(bvh_.items.begin(), bvh_.items.end(), 0u);
+        bvh_.items = indicesOf(boxes.size());
         bvh_.nodes.reserve(boxes.size());
     }
 

@@ -1,6 +1,7 @@
 #include "bake/geometry/Import.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Order.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/MeshFileParts.h"
@@ -10,7 +11,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <numeric>
 #include <tuple>
 
 namespace tss {
@@ -21,13 +21,11 @@ TriangleMesh welded(const TriangleMesh& mesh) {
         const Vec3& x = mesh.vertices[v];
         return std::tuple(x.x(), x.y(), x.z(), v);
     };
-    std::vector<int> order(count), first(count), place(count, -1);
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = indicesOf<int>(count), first = order, place(count, -1);
     // NaN has no place in an order: such vertices stay as they are.
     const auto finite =
         std::partition(order.begin(), order.end(), [&](int v) { return mesh.vertices[v].allFinite(); });
     std::ranges::sort(order.begin(), finite, {}, key);
-    std::iota(first.begin(), first.end(), 0);
     for (auto it = order.begin(); it != finite; ++it)
         if (it != order.begin() && mesh.vertices[*it] == mesh.vertices[*(it - 1)])
             first[*it] = first[*(it - 1)];

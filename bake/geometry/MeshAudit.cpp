@@ -1,6 +1,7 @@
 #include "bake/geometry/MeshAudit.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Order.h"
 #include "bake/base/UnionFind.h"
 #include "bake/base/Words.h"
 #include "bake/geometry/Bvh.h"
@@ -49,8 +50,7 @@ int countTurnedOver(const TriangleMesh& mesh) {
     std::vector<std::array<int, 3>> keys;
     for (const Tri& t : mesh.triangles)
         if (inRange(mesh, t) && t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) keys.push_back(orientedKey(t));
-    std::sort(keys.begin(), keys.end());
-    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    sortOnce(keys);
     const auto isThere = [&](const std::array<int, 3>& key) {
         return key[1] < key[2] &&
                std::binary_search(keys.begin(), keys.end(), std::array{key[0], key[2], key[1]});

@@ -1,5 +1,7 @@
 #include "bake/geometry/PartSet.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <map>
 
@@ -107,8 +109,7 @@ std::vector<SurfacePart> partsOf(const TriangleMesh& other, const TriangleMesh& 
             if (cuts > 0) result.push_back({t, cuts});
         }
     }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
+    sortOnce(result);
     return result;
 }
 

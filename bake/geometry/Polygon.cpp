@@ -2,9 +2,9 @@
 #include "bake/geometry/Polygon.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
@@ -40,9 +40,8 @@ double turn(const Point& a, const Point& b, const Point& c) {
 
 class Ears {
 public:
-    explicit Ears(std::span<const Vec3> corners) : points_(flattened(corners)), ring_(corners.size()) {
-        std::iota(ring_.begin(), ring_.end(), 0);
-    }
+    explicit Ears(std::span<const Vec3> corners)
+        : points_(flattened(corners)), ring_(indicesOf<int>(corners.size())) {}
 
     std::vector<Tri> cut() {
         std::vector<Tri> triangles;

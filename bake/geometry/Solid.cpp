@@ -1,5 +1,6 @@
 #include "bake/geometry/Solid.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/UnionFind.h"
 #include "bake/geometry/MeshAudit.h"
 #include "bake/geometry/OpenEdges.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace tss {
 
@@ -44,8 +44,7 @@ public:
     /// For every vertex of the mesh the one of lowest index among those that count as one with it, also
     /// across a crack; itself where there is none.
     std::vector<int> representatives() const {
-        std::vector<int> place(mesh_.vertices.size());
-        std::iota(place.begin(), place.end(), 0);
+        std::vector<int> place = indicesOf<int>(mesh_.vertices.size());
         for (std::size_t k = 0; k < vertices_.size(); ++k) {
             const int v = vertices_[k];
             visitBall(tree_, mesh_.vertices[v], near_[k], [&](std::uint32_t i) {
@@ -207,8 +206,7 @@ TriangleMesh closingFans(const TriangleMesh& mesh, const Openings& openings) {
     fans.vertices = mesh.vertices;
     fans.triangles = openings.strips;
     for (auto& [ignored, hole] : holes) {
-        std::sort(hole.rim.begin(), hole.rim.end());
-        hole.rim.erase(std::unique(hole.rim.begin(), hole.rim.end()), hole.rim.end());
+        sortOnce(hole.rim);
         const Vec3 origin = mesh.vertices[hole.rim[0]];
         Vec3 mean = Vec3::Zero();
         for (const int v : hole.rim) mean += mesh.vertices[v] - origin;

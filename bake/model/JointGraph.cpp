@@ -1,7 +1,8 @@
 #include "bake/model/JointGraph.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
@@ -31,8 +32,8 @@ JointGraph::JointGraph(const std::vector<Joint>& joints) : only_(joints.size(), 
             }
     }
     // A joint that is not in the forest closes a loop through all those in it between its two bodies.
-    std::vector<int> top(from.size()); // of each body, as far up as such loops have led already
-    std::iota(top.begin(), top.end(), 0);
+    std::vector<int> top =
+        indicesOf<int>(from.size()); // of each body, as far up as such loops have led already
     const auto climbed = [&](int body) {
         while (top[body] != body) body = top[body] = top[top[body]];
         return body;

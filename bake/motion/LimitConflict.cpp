@@ -1,10 +1,10 @@
 #include "bake/motion/LimitConflict.h"
 
+#include "bake/base/Order.h"
 #include "bake/motion/JointQp.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
@@ -72,8 +72,7 @@ private:
 
 std::vector<std::size_t> conflictingPlanes(const Motion& motion) {
     const ScaledLimits limits(motion);
-    std::vector<std::size_t> planes(motion.planes.size());
-    std::iota(planes.begin(), planes.end(), 0);
+    std::vector<std::size_t> planes = indicesOf<std::size_t>(motion.planes.size());
     if (planes.empty() || limits.feasible(planes)) return {};
     // Deletion filter: a plane without which the others still conflict is not part of the subset.
     for (std::size_t i = planes.size(); i-- > 0;) {

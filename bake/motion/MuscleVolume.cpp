@@ -1,5 +1,6 @@
 #include "bake/motion/MuscleVolume.h"
 
+#include "bake/base/Order.h"
 #include "bake/geometry/OpenEdges.h"
 #include "bake/geometry/PartSet.h"
 
@@ -151,8 +152,7 @@ std::vector<std::vector<int>> neighbours(const TriangleMesh& mesh) {
             rings[t[k]].push_back(t[(k + 2) % 3]);
         }
     for (auto& ring : rings) {
-        std::sort(ring.begin(), ring.end());
-        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        sortOnce(ring);
     }
     return rings;
 }

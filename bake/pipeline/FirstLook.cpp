@@ -1,5 +1,6 @@
 #include "bake/pipeline/FirstLook.h"
 
+#include "bake/base/Order.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/model/Kinematics.h"
 #include "bake/pipeline/FillPair.h"
@@ -103,9 +104,7 @@ double usualTolerance(const SceneModel& scene) {
     for (const Body& body : scene.bodies)
         if (!body.mesh.empty()) sizes.push_back(millimetres * diagonal(body.mesh));
     if (sizes.empty()) return 0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return oneDigit(*middle / 30) / millimetres;
+    return oneDigit(median(sizes) / 30) / millimetres;
 }
 
 void setFirstTolerances(SceneModel& scene, const std::vector<double>& distancesAtRest) {

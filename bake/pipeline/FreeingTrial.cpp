@@ -1,5 +1,6 @@
 #include "bake/pipeline/FreeingTrial.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/geometry/Solid.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
@@ -39,8 +39,7 @@ FreeingTrial::FreeingTrial(const TriangleMesh& a, const TriangleMesh& b, const M
         for (std::vector<double>& q : exploredPoses(motion, 20, 1)) values_.push_back(std::move(q));
     for (const std::vector<double>& q : values_) unmoved_.push_back(pose(motion, q));
     firstPoses_ = values_.size();
-    order_.resize(values_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    order_ = indicesOf<std::size_t>(values_.size());
     if (overlapsAtRest()) findStops(a, b);
 }
 
@@ -73,8 +72,7 @@ std::optional<TouchingElsewhere> FreeingTrial::touchingElsewhere() const {
         std::vector<double> values;
         for (std::size_t k = 0; k < firstPoses_; ++k)
             if (touching[k]) values.push_back(values_[k][d]);
-        std::ranges::nth_element(values, values.begin() + values.size() / 2);
-        middle.push_back(values[values.size() / 2]);
+        middle.push_back(median(values));
     }
     std::size_t best = 0;
     for (std::size_t k = 1; k < firstPoses_; ++k)

@@ -1,6 +1,7 @@
 #include "bake/play/JointPlan.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Order.h"
 #include "bake/model/CheckIndices.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/MotionBound.h"
@@ -39,8 +40,7 @@ TableSlots slotsOf(const SceneModel& scene, int pair, JointPlan& plan) {
 void addGroup(const SceneModel& scene, const std::vector<TableSlots>& tables, JointPlan& plan) {
     std::vector<std::size_t> slots;
     for (const TableSlots& table : tables) slots.insert(slots.end(), table.slots.begin(), table.slots.end());
-    std::ranges::sort(slots);
-    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    sortOnce(slots);
     std::vector<TableOnJoint> entries;
     std::vector<int> pairs;
     for (const TableSlots& table : tables) {

@@ -1,9 +1,9 @@
 // The co-occurrence table Ta and the merging of rows in "Object Interaction Using Tabulated Spheres Subsets".
+#include "bake/base/Order.h"
 #include "bake/reduce/Reductions.h"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace tss {
 
@@ -29,10 +29,8 @@ struct Collisions {
             a.push_back(p.a);
             b.push_back(p.b);
         }
-        for (auto* list : {&a, &b}) {
-            std::sort(list->begin(), list->end());
-            list->erase(std::unique(list->begin(), list->end()), list->end());
-        }
+        sortOnce(a);
+        sortOnce(b);
         row.resize(a.size());
         column.resize(b.size());
         meets.assign(b.size(), Bits((a.size() + 63) / 64, 0));
@@ -61,8 +59,7 @@ bool alwaysWithAnother(const Collisions& tc, std::uint32_t i, const std::vector<
 }
 
 std::vector<bool> keptColumns(const Collisions& tc) {
-    std::vector<std::uint32_t> order(tc.b.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(tc.b.size());
     // The least seen first; of two that always appear together the first stays.
     std::sort(order.begin(), order.end(), [&](auto x, auto y) {
         const std::size_t nx = tc.column[x].size(), ny = tc.column[y].size();

@@ -1,4 +1,5 @@
 // The minimal sphere set Mss of "Object Interaction Using Tabulated Spheres Subsets".
+#include "bake/base/Order.h"
 #include "bake/reduce/Reductions.h"
 
 #include "bake/base/Parallel.h"
@@ -7,7 +8,6 @@
 #include "bake/search/SampledSearch.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
@@ -25,8 +25,7 @@ public:
                                                  const Progress& progress) {
         std::vector<std::size_t> count(poses.size());
         parallelFor(poses.size(), [&](std::size_t k) { count[k] = pairsAt(poses[k]).size(); });
-        std::vector<std::size_t> order(poses.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<std::size_t> order = indicesOf<std::size_t>(poses.size());
         std::stable_sort(order.begin(), order.end(), [&](auto x, auto y) { return count[x] < count[y]; });
 
         std::vector<std::vector<SpherePair>> kept;

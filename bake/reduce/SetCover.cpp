@@ -2,6 +2,8 @@
 // problems", 1990.
 #include "bake/reduce/SetCover.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -28,8 +30,7 @@ Index rarest(const std::vector<Index>& list, const Lists& byMember) {
 /// The lists that hold some other list whole (of equal lists all but the first).
 std::vector<bool> supersets(const Lists& lists, const Lists& byMember) {
     std::vector<bool> drop(lists.size(), false);
-    std::vector<Index> order(lists.size());
-    std::iota(order.begin(), order.end(), Index{0});
+    std::vector<Index> order = indicesOf<Index>(lists.size());
     std::stable_sort(order.begin(), order.end(),
                      [&](Index x, Index y) { return lists[x].size() < lists[y].size(); });
     for (Index small : order) {
@@ -91,8 +92,7 @@ void keepColumns(Core& core, const std::vector<bool>& drop) {
 Core reduceExactly(Lists rows) {
     Core core;
     for (const auto& row : rows) core.columns.insert(core.columns.end(), row.begin(), row.end());
-    std::sort(core.columns.begin(), core.columns.end());
-    core.columns.erase(std::unique(core.columns.begin(), core.columns.end()), core.columns.end());
+    sortOnce(core.columns);
     for (auto& row : rows)
         for (Index& c : row)
             c = static_cast<Index>(std::lower_bound(core.columns.begin(), core.columns.end(), c) -

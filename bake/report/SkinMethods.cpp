@@ -1,12 +1,12 @@
 #include "bake/report/SkinStudy.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Stopwatch.h"
 #include "bake/compare/EnclosingTree.h"
 #include "bake/report/Timing.h"
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 namespace tss::reporting {
 
@@ -168,8 +168,7 @@ void addEllipsoids(SkinStudy& study, const SkinSetting& setting, const std::vect
 } // namespace
 
 void runSkinMethods(const SkinSetting& setting, SkinStudy& study) {
-    std::vector<std::uint32_t> every(setting.skin.size());
-    std::iota(every.begin(), every.end(), 0u);
+    std::vector<std::uint32_t> every = indicesOf(setting.skin.size());
     SphereSet inRows;
     for (const std::uint32_t v : setting.rowVertex) inRows.push_back(setting.skin[v]);
     const RefittedTree skinAll(setting.skin), skinUsed(inRows);

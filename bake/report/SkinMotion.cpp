@@ -1,5 +1,6 @@
 #include "bake/report/SkinMotion.h"
 
+#include "bake/base/Order.h"
 #include "bake/compare/PushedSkin.h"
 #include "bake/geometry/PartSet.h"
 #include "bake/model/Kinematics.h"

@@ -29,12 +29,6 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 } // namespace
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + values.size() / 2;
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 std::vector<Times> timeMethods(const std::vector<const compare::CollisionMethod*>& methods,
                                std::span<const compare::PoseQuery> queries, const TimingOptions& options) {
     std::vector<Times> times(methods.size());

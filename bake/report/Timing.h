@@ -18,9 +18,6 @@ struct TimingOptions {
     double secondsPass = 0.05;  ///< a method that is slower takes the first of the poses, at least 100
 };
 
-/// The middle one of some values, the upper one of two. values: not empty.
-double median(std::vector<double> values);
-
 /// Times the loop over the same poses for every method, in one process on one thread: a warm-up, then rounds
 /// in which all methods take turns, so that disturbances of the machine affect all of them. queries: in
 /// random order, so that the first part, which slow methods are asked, is representative.

@@ -1,5 +1,6 @@
 #include "bake/respond/JointResponder.h"
 
+#include "bake/base/Order.h"
 #include "bake/motion/WholeTurn.h"
 #include "bake/respond/JointClusters.h"
 #include "bake/respond/JointModel.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
@@ -17,9 +17,7 @@ namespace {
 constexpr double returnShare = 0.05;
 
 TableOnJoint wholeJoint(const Table& table) {
-    TableOnJoint entry{&table, std::vector<int>(table.motion.dofCount())};
-    std::iota(entry.dofs.begin(), entry.dofs.end(), 0);
-    return entry;
+    return {&table, indicesOf<int>(table.motion.dofCount())};
 }
 
 /// Of a model with clustered groups: a leg is shortened until at most manyNear pairs come near on it, or

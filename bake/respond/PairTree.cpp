@@ -1,7 +1,8 @@
 #include "bake/respond/PairTree.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
@@ -82,8 +83,7 @@ PairTree::Side sideOf(std::vector<Sphere> spheres, std::size_t levels) {
 }
 
 std::vector<std::uint32_t> orderOf(const SphereSet& spheres) {
-    std::vector<std::uint32_t> order(spheres.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(spheres.size());
     sortIntoBlocks(spheres, order);
     return order;
 }

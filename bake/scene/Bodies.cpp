@@ -1,8 +1,8 @@
+#include "bake/base/Order.h"
 #include "bake/geometry/Polygon.h"
 #include "bake/scene/SceneParts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 namespace tss {
@@ -229,8 +229,7 @@ void readBodies(SceneReading& reading) {
 
 void writeBodies(Layer& layer, const SceneModel& scene) {
     // Parents first, whatever their order in the scene, so that none is made as a plain Xform by its child.
-    std::vector<std::size_t> order(scene.bodies.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::vector<std::size_t> order = indicesOf<std::size_t>(scene.bodies.size());
     const auto depth = [&](std::size_t i) {
         const std::string& path = scene.bodies[i].path;
         return std::ranges::count(path, '/');

@@ -1,5 +1,6 @@
 #include "bake/search/RestContact.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/motion/MotionBound.h"
 #include "bake/search/PoseGrid.h"
@@ -199,8 +200,7 @@ private:
                 if (free[i])
                     for (const std::size_t near : grid_.neighbours(next[i]))
                         if (!grid_.free(near)) after.push_back(near);
-            std::sort(after.begin(), after.end());
-            after.erase(std::unique(after.begin(), after.end()), after.end());
+            sortOnce(after);
             next = std::move(after);
         }
     }

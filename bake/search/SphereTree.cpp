@@ -1,17 +1,16 @@
 #include "bake/search/SphereTree.h"
 
+#include "bake/base/Order.h"
 #include "bake/spheres/SphereSet.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tss {
 
 SphereTree::SphereTree(const SphereSet& spheres, const std::function<bool()>& stop) {
     if (spheres.empty()) return;
     nodes_.reserve(2 * spheres.size() - 1);
-    std::vector<std::uint32_t> order(spheres.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(spheres.size());
     if (!build(spheres, order, 0, order.size(), stop)) {
         nodes_.clear();
         return;

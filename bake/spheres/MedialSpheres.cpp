@@ -1,12 +1,12 @@
 // The lazy greedy choice is that of Minoux, "Accelerated greedy algorithms for maximizing submodular set
 // functions", 1978.
+#include "bake/base/Order.h"
 #include "bake/spheres/SphereMethods.h"
 
 #include "bake/base/Parallel.h"
 #include "bake/spheres/RestNeighbour.h"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 
 namespace tss {
@@ -30,8 +30,7 @@ CoverSets coverSets(std::span<const Sphere> candidates, std::span<const Patch> p
                     const Progress& progress) {
     constexpr int enough = 24;
     const Bvh tree = treeOfCentres(patches);
-    std::vector<std::uint32_t> order(candidates.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(candidates.size());
     std::stable_sort(order.begin(), order.end(),
                      [&](auto a, auto b) { return candidates[a].radius > candidates[b].radius; });
 

@@ -1,6 +1,7 @@
 #include "bake/spheres/Patches.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/base/Poll.h"
 #include "bake/geometry/MeshAudit.h"
@@ -263,8 +264,7 @@ FittedPatches fitSome(PatchLimit& limit, std::span<const Patch> patches,
 FittedPatches fitPatches(const Solid& solid, std::span<const Patch> patches, const PatchOptions& options,
                          const Progress& progress) {
     PatchLimit limit(solid, patches, options, progress);
-    std::vector<std::uint32_t> all(patches.size());
-    std::iota(all.begin(), all.end(), 0u);
+    std::vector<std::uint32_t> all = indicesOf(patches.size());
     FittedPatches fitted = fitSome(limit, patches, all);
     report(progress, "patches", 1);
     return fitted;

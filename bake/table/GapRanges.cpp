@@ -1,5 +1,6 @@
 #include "bake/table/GapRanges.h"
 
+#include "bake/base/Order.h"
 #include "bake/table/RoundingBand.h"
 
 #include <algorithm>
@@ -25,10 +26,7 @@ GapRanges::GapRanges(const Motion& motion, std::span<const TablePair> pairs)
         slack_ = std::max(slack_, pairs[p].a.norm() + pairs[p].b.norm() + reaches.back());
     }
     slack_ = 1e-13 * (slack_ + motionSize(motion));
-    if (reaches.empty()) return;
-    const auto middle = reaches.begin() + reaches.size() / 2;
-    std::nth_element(reaches.begin(), middle, reaches.end());
-    middleReach_ = *middle;
+    if (!reaches.empty()) middleReach_ = median(reaches);
 }
 
 double GapRanges::wholeMove() const {

@@ -1,6 +1,6 @@
 #include "bake/table/LikelyTests.h"
 
-#include <algorithm>
+#include "bake/base/Order.h"
 
 namespace tss {
 
@@ -8,8 +8,7 @@ std::vector<std::uint32_t> likelyTests(std::span<const TablePair> pairs,
                                        const std::vector<TouchingPose>& poses, std::size_t most) {
     std::vector<std::uint32_t> candidates;
     for (const TouchingPose& at : poses) candidates.push_back(at.test);
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    sortOnce(candidates);
 
     std::vector<std::vector<bool>> touches(candidates.size(), std::vector<bool>(poses.size()));
     for (std::size_t c = 0; c < candidates.size(); ++c)

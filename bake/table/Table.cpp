@@ -1,5 +1,7 @@
 #include "bake/table/Table.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <cassert>
 #include <numeric>
@@ -48,8 +50,7 @@ Table makeTable(const SphereSet& a, const SphereSet& b, const std::vector<Sphere
                 const std::vector<double>& restGaps, const Motion& motion, std::vector<std::uint32_t>* usedA,
                 std::vector<std::uint32_t>* usedB, Keep keep) {
     assert(restGaps.empty() || restGaps.size() == pairs.size());
-    std::vector<std::size_t> order(pairs.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> order = indicesOf<std::size_t>(pairs.size());
     std::sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) { return pairs[x] < pairs[y]; });
     order.erase(std::unique(order.begin(), order.end(),
                             [&](std::size_t x, std::size_t y) { return pairs[x] == pairs[y]; }),

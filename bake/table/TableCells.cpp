@@ -1,6 +1,7 @@
 #include "bake/table/TableCells.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 #include "bake/table/EvenParts.h"
 #include "bake/table/GapRanges.h"
 
@@ -101,8 +102,7 @@ public:
     /// Finds all rows: those of the cells of the grid, then those of the parts into which cells are cut where
     /// it is open whether a test touches.
     void findRows(std::uint32_t lanes) {
-        std::vector<std::uint32_t> all(pairs_.size());
-        std::iota(all.begin(), all.end(), 0u);
+        std::vector<std::uint32_t> all = indicesOf(pairs_.size());
         Piece limits;
         for (std::size_t k = 0; k < dofs_; ++k) limits.size[k] = std::int32_t(cells_.axes_[k].parts);
         cells_.grid_.resize(cellCount_);
@@ -120,8 +120,7 @@ public:
     /// block begins with the next test by its mean place, and takes those that add fewest parts to it.
     void orderTests(std::uint32_t lanes) {
         std::vector<std::uint32_t>& order = cells_.order_;
-        order.resize(pairs_.size());
-        std::iota(order.begin(), order.end(), 0u);
+        order = indicesOf(pairs_.size());
         if (lanes == 1) return;
         const std::vector<Touching> touching = touchingParts();
         std::stable_sort(order.begin(), order.end(), [&](std::uint32_t x, std::uint32_t y) {

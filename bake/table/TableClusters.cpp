@@ -1,9 +1,10 @@
 #include "bake/table/TableClusters.h"
 
+#include "bake/base/Order.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 
 namespace tss {
 
@@ -93,12 +94,6 @@ TablePair boundOf(std::span<const TablePair> pairs, std::span<const std::uint32_
     return bound;
 }
 
-std::vector<std::uint32_t> allOf(std::size_t count) {
-    std::vector<std::uint32_t> all(count);
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-}
-
 std::vector<TablePair> boundsOfEach(std::span<const TablePair> pairs, std::span<const std::uint32_t> order,
                                     std::size_t each) {
     std::vector<TablePair> bounds;
@@ -110,7 +105,7 @@ std::vector<TablePair> boundsOfEach(std::span<const TablePair> pairs, std::span<
 } // namespace
 
 TablePair boundOf(std::span<const TablePair> pairs) {
-    return boundOf(pairs, allOf(pairs.size()));
+    return boundOf(pairs, indicesOf(pairs.size()));
 }
 
 TableClusters::TableClusters(std::span<const TablePair> pairs, std::uint32_t lanes) {
@@ -123,7 +118,7 @@ TableClusters::TableClusters(std::span<const TablePair> pairs, std::uint32_t lan
     levels_.push_back(boundsOfEach(pairs, order_, testsEach_));
     do {
         const std::vector<TablePair>& below = levels_.back();
-        levels_.push_back(boundsOfEach(below, allOf(below.size()), ofGroup_));
+        levels_.push_back(boundsOfEach(below, indicesOf(below.size()), ofGroup_));
     } while (levels_.back().size() > mostAtTop);
 }
 

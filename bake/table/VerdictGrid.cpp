@@ -1,12 +1,12 @@
 #include "bake/table/VerdictGrid.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 #include "bake/table/EvenParts.h"
 #include "bake/table/GapRanges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 
@@ -36,9 +36,7 @@ constexpr int mostLooks = 400;
 class VerdictGrid::Maker {
 public:
     Maker(VerdictGrid& grid, const Motion& motion, std::span<const TablePair> pairs, double band)
-        : grid_(grid), motion_(motion), ranges_(motion, pairs), band_(band), all_(pairs.size()) {
-        std::iota(all_.begin(), all_.end(), 0u);
-    }
+        : grid_(grid), motion_(motion), ranges_(motion, pairs), band_(band), all_(indicesOf(pairs.size())) {}
 
     bool moves() const { return ranges_.wholeMove() > ranges_.slack(); }
 

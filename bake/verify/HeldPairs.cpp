@@ -1,9 +1,9 @@
+#include "bake/base/Order.h"
 #include "bake/verify/MeshProof.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -48,8 +48,7 @@ public:
                 alike_[k] =
                     alike_[first] && alike_[second] && tree.nodes[first].exempt == tree.nodes[second].exempt;
         }
-        std::vector<std::uint32_t> all(balls.size());
-        std::iota(all.begin(), all.end(), 0u);
+        std::vector<std::uint32_t> all = indicesOf(balls.size());
         visit({tree.root(), 1}, all);
     }
 

@@ -1,3 +1,4 @@
+#include "bake/base/Order.h"
 #include "bake/verify/KernelProofs.h"
 
 #include "bake/verify/GapBox.h"
@@ -5,7 +6,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -18,8 +18,7 @@ class CellChecker {
 public:
     CellChecker(const Table& table, const PreparedTable& prepared)
         : table_(table), cells_(prepared.kernels().cells()), gaps_(table), block_(gaps_.testCount()),
-          all_(gaps_.testCount()) {
-        std::iota(all_.begin(), all_.end(), 0u);
+          all_(indicesOf(gaps_.testCount())) {
         for (std::size_t i = 0; i < block_.size(); ++i)
             block_[cells_.order()[i]] = static_cast<std::uint32_t>(i / prepared.kernels().lanes());
     }

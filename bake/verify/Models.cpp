@@ -1,10 +1,10 @@
 #include "bake/verify/Models.h"
 
+#include "bake/base/Order.h"
 #include "bake/verify/MeshProof.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -43,8 +43,7 @@ bool sameDof(const Dof& x, const Dof& y) {
 } // namespace
 
 BallTree::BallTree(const SphereSet& spheres) {
-    std::vector<std::uint32_t> order(spheres.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(spheres.size());
     if (!spheres.empty()) join(spheres, order, 0, order.size());
 }
 

@@ -1,12 +1,12 @@
 #include "bake/verify/SurfaceTree.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Order.h"
 #include "bake/geometry/MeshAudit.h"
 
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -112,8 +112,7 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh, std::span<const SurfacePart> 
         if (part.triangle >= mesh.triangles.size() || part.cuts == 0)
             throw InputError("region at rest: expected parts of the mesh's triangles");
     // Doubles, and triangles without area that lie on others: those stand for them, exempt or not.
-    std::vector<std::uint32_t> kept(mesh.triangles.size());
-    std::iota(kept.begin(), kept.end(), 0u);
+    std::vector<std::uint32_t> kept = indicesOf(mesh.triangles.size());
     if (auditMesh(mesh).usable()) cleaned(mesh, &kept);
     auto part = sorted.begin();
     for (const std::uint32_t t : kept) {
@@ -122,8 +121,7 @@ SurfaceTree::SurfaceTree(const TriangleMesh& mesh, std::span<const SurfacePart> 
         addPatches(patches, corners(mesh, {t, 1}), {t, 1}, {part, end});
         part = end;
     }
-    std::vector<std::uint32_t> order(patches.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::uint32_t> order = indicesOf(patches.size());
     nodes.reserve(2 * patches.size());
     if (!patches.empty()) join(order, 0, order.size());
 }

@@ -1,11 +1,11 @@
 #include "bake/verify/TestTree.h"
 
 #include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 
 namespace tss::verify {
 
@@ -39,8 +39,7 @@ struct TestTree::Search {
     }
 };
 
-TestTree::TestTree(const std::vector<MeshTest>& tests) : tests_(tests), order_(tests.size()) {
-    std::iota(order_.begin(), order_.end(), 0u);
+TestTree::TestTree(const std::vector<MeshTest>& tests) : tests_(tests), order_(indicesOf(tests.size())) {
     if (!tests.empty()) join(0, static_cast<std::uint32_t>(tests.size()));
 }
 

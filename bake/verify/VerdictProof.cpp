@@ -1,3 +1,4 @@
+#include "bake/base/Order.h"
 #include "bake/verify/KernelProofs.h"
 
 #include "bake/verify/GapBox.h"
@@ -5,7 +6,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace tss::verify {
@@ -26,8 +26,7 @@ public:
     VerdictChecker(const Table& table, const PreparedTable& prepared)
         : grid_(prepared.verdicts()), dofs_(table.motion.dofCount()), band_(prepared.signBand()),
           gaps_(table) {
-        all_.resize(gaps_.testCount());
-        std::iota(all_.begin(), all_.end(), 0u);
+        all_ = indicesOf(gaps_.testCount());
     }
 
     std::string refute() {

@@ -1,6 +1,7 @@
 #include "DrawnVertices.h"
 #include "NearPoints.h"
 
+#include "bake/base/Order.h"
 #include "bake/geometry/MeshQuery.h"
 #include "bake/motion/SmallSystems.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace osgTSS {
 
@@ -76,8 +76,7 @@ std::optional<DrawnVertices> DrawnVertices::of(const osg::Geometry& rest, const 
     if (normals && normals->size() == vertices->size())
         for (const std::uint32_t vertex : drawn._drawn.items())
             drawn._drawnNormals.push_back(toCore((*normals)[vertex]));
-    drawn._all.resize(mesh.vertices.size());
-    std::iota(drawn._all.begin(), drawn._all.end(), 0u);
+    drawn._all = tss::indicesOf(mesh.vertices.size());
     return drawn;
 }
 

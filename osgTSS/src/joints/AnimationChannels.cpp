@@ -1,5 +1,6 @@
 #include "AnimationChannels.h"
 
+#include "bake/base/Order.h"
 #include "osgTSS/src/CallbackOf.h"
 #include "osgTSS/src/EachNode.h"
 
@@ -66,11 +67,6 @@ std::vector<AnimationChannels::Channels> AnimationChannels::of(const osg::Node& 
     return found;
 }
 
-void sortOnce(std::vector<double>& times) {
-    std::ranges::sort(times);
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-}
-
 std::vector<double> keyTimes(const Channel& channel) {
     const Sampler* sampler = channel.getSampler();
     const KeyframeContainer* container = sampler ? sampler->getKeyframeContainer() : nullptr;
@@ -83,7 +79,7 @@ std::vector<double> keyTimes(const Channel& channel) {
                 Vec4CubicBezierKeyframeContainer>(*container, times);
     if (times.empty() && container && container->size() > 0)
         times = {channel.getStartTime(), channel.getEndTime()};
-    sortOnce(times);
+    tss::sortOnce(times);
     return times;
 }
 

@@ -43,9 +43,6 @@ bool isCurve(const osgAnimation::Channel& channel);
 /// part in a thousand of a step between two keys.
 inline constexpr int stepsOfCurve = 32;
 
-/// Rising, each once.
-void sortOnce(std::vector<double>& times);
-
 /// When a channel has keys, seconds, rising; of a channel of an unknown type its start and its end.
 std::vector<double> keyTimes(const osgAnimation::Channel& channel);
 

@@ -1,5 +1,6 @@
 #include "BoneMotion.h"
 
+#include "bake/base/Order.h"
 #include "osgTSS/src/CallbackOf.h"
 
 #include <osgAnimation/UpdateMatrixTransform>
@@ -40,7 +41,7 @@ public:
             const std::vector<double> keys = keyTimes(*channel);
             all.insert(all.end(), keys.begin(), keys.end());
         }
-        sortOnce(all);
+        tss::sortOnce(all);
         const bool curves =
             std::ranges::any_of(_channels, [](const auto& channel) { return isCurve(*channel); });
         return withSteps(all, curves ? stepsOfCurve : stepsBetweenKeys);
