@@ -1,6 +1,7 @@
 #include "bake/compare/EnclosingTree.h"
 
 #include "bake/base/Order.h"
+#include "bake/geometry/Bvh.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,15 +18,7 @@ void split(const SphereSet& spheres, std::span<std::uint32_t> range, int levels,
         parts.push_back(range);
         return;
     }
-    Eigen::AlignedBox3d box;
-    for (const std::uint32_t i : range) box.extend(spheres[i].centre);
-    int axis = 0;
-    box.sizes().maxCoeff(&axis);
-    const auto middle = range.begin() + range.size() / 2;
-    std::nth_element(range.begin(), middle, range.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const double x = spheres[i].centre[axis], y = spheres[j].centre[axis];
-        return x != y ? x < y : i < j;
-    });
+    partAlongLongest(range, range.size() / 2, [&](std::uint32_t i) { return spheres[i].centre; });
     split(spheres, range.subspan(0, range.size() / 2), levels - 1, parts);
     split(spheres, range.subspan(range.size() / 2), levels - 1, parts);
 }

@@ -109,12 +109,7 @@ private:
                 begin, end, [&](std::uint32_t item) { return binOf(item, centres, split.axis) < split.bin; });
             return static_cast<std::uint32_t>(middle - bvh_.items.begin());
         }
-        int axis = 0;
-        centres.sizes().maxCoeff(&axis);
-        std::nth_element(begin, begin + count / 2, end, [&](std::uint32_t a, std::uint32_t b) {
-            const double x = boxes_[a].center()[axis], y = boxes_[b].center()[axis];
-            return x != y ? x < y : a < b;
-        });
+        partAlongLongest({begin, end}, count / 2, [&](std::uint32_t item) { return boxes_[item].center(); });
         return first + count / 2;
     }
 

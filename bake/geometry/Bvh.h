@@ -2,6 +2,7 @@
 #include "bake/base/Infinity.h"
 #include "bake/geometry/TriangleMesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -36,6 +37,23 @@ Bvh buildBvh(std::span<const Eigen::AlignedBox3d> boxes, std::uint32_t leafSize 
 
 /// Over the triangles of a mesh.
 Bvh buildBvh(const TriangleMesh& mesh, std::uint32_t leafSize = 4);
+
+/// Puts those items first whose places come first along the axis on which all of them are spread most,
+/// `count` of them. placeOf(item): its place. Returns the box about all places.
+template <class PlaceOf>
+Eigen::AlignedBox3d partAlongLongest(std::span<std::uint32_t> items, std::size_t count,
+                                     const PlaceOf& placeOf) {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t item : items) box.extend(placeOf(item));
+    int axis = 0;
+    box.sizes().maxCoeff(&axis);
+    std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(count),
+                             [&](std::uint32_t a, std::uint32_t b) {
+                                 const double x = placeOf(a)[axis], y = placeOf(b)[axis];
+                                 return x != y ? x < y : a < b;
+                             });
+    return box;
+}
 
 inline double squaredDistance(const Bvh::Node& node, const Vec3& p) {
     return (node.lower - p).cwiseMax(p - node.upper).cwiseMax(0.0).squaredNorm();

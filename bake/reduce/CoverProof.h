@@ -25,10 +25,6 @@ class GrowingCover {
 public:
     explicit GrowingCover(const CoverProblem& problem)
         : problem_(&problem), set_(std::make_unique<ConcurrentPairs>(problem.a.size(), problem.b.size())) {}
-    GrowingCover(const CoverProblem& problem, const std::vector<ContactPair>& members)
-        : GrowingCover(problem) {
-        for (const ContactPair& pair : members) add(pair);
-    }
 
     const std::vector<ContactPair>& members() const { return members_; }
     const ConcurrentPairs& set() const { return *set_; }

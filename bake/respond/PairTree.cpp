@@ -1,6 +1,7 @@
 #include "bake/respond/PairTree.h"
 
 #include "bake/base/Order.h"
+#include "bake/geometry/Bvh.h"
 
 #include <algorithm>
 
@@ -16,21 +17,10 @@ constexpr double rounding = 2.2e-6;
 /// Halves the spheres where they are spread most, into whole blocks of blocks down to whole blocks.
 void sortIntoBlocks(const SphereSet& spheres, std::span<std::uint32_t> order) {
     if (order.size() <= fan) return;
-    Vec3 lower = spheres[order[0]].centre, upper = lower;
-    for (const std::uint32_t i : order) {
-        lower = lower.cwiseMin(spheres[i].centre);
-        upper = upper.cwiseMax(spheres[i].centre);
-    }
-    Eigen::Index k = 0;
-    (upper - lower).maxCoeff(&k);
     std::size_t unit = fan;
     while (unit * fan < order.size()) unit *= fan;
     const std::size_t half = ((order.size() + unit - 1) / unit + 1) / 2 * unit;
-    std::nth_element(order.begin(), order.begin() + std::ptrdiff_t(half), order.end(),
-                     [&](std::uint32_t x, std::uint32_t y) {
-                         const double a = spheres[x].centre[k], b = spheres[y].centre[k];
-                         return a < b || (a == b && x < y);
-                     });
+    partAlongLongest(order, half, [&](std::uint32_t i) { return spheres[i].centre; });
     sortIntoBlocks(spheres, order.first(half));
     sortIntoBlocks(spheres, order.subspan(half));
 }

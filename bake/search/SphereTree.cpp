@@ -1,7 +1,7 @@
 #include "bake/search/SphereTree.h"
 
 #include "bake/base/Order.h"
-#include "bake/spheres/SphereSet.h"
+#include "bake/geometry/Bvh.h"
 
 #include <algorithm>
 
@@ -31,16 +31,10 @@ bool SphereTree::build(const SphereSet& spheres, std::vector<std::uint32_t>& ord
         nodes_[self] = {s.centre, s.radius, 0, order[first]};
         return true;
     }
-    Eigen::AlignedBox3d box;
-    for (std::size_t k = first; k < last; ++k) box.extend(spheres[order[k]].centre);
-    int axis = 0;
-    box.sizes().maxCoeff(&axis);
     const std::size_t middle = first + (last - first) / 2;
-    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last,
-                     [&](std::uint32_t x, std::uint32_t y) {
-                         const double cx = spheres[x].centre[axis], cy = spheres[y].centre[axis];
-                         return cx != cy ? cx < cy : x < y;
-                     });
+    const Eigen::AlignedBox3d box =
+        partAlongLongest({order.begin() + first, order.begin() + last}, middle - first,
+                         [&](std::uint32_t i) { return spheres[i].centre; });
     if (!build(spheres, order, first, middle, stop)) return false;
     const std::size_t right = nodes_.size();
     if (!build(spheres, order, middle, last, stop)) return false;

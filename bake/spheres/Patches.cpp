@@ -232,10 +232,6 @@ private:
     int depth_ = 0;
 };
 
-} // namespace
-
-namespace {
-
 void append(FittedPatches& all, const FittedPatches& more) {
     all.patches.insert(all.patches.end(), more.patches.begin(), more.patches.end());
     all.candidates.insert(all.candidates.end(), more.candidates.begin(), more.candidates.end());
