@@ -20,7 +20,7 @@ double area(const Corners& c) {
 using Place = std::array<double, 9>;
 
 /// The corners, turned so that the least comes first.
-Place placeOf(const Corners& c) {
+Place placeOfCorners(const Corners& c) {
     Place least{};
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &x = c[k], &y = c[(k + 1) % 3], &z = c[(k + 2) % 3];
@@ -45,7 +45,7 @@ std::uint32_t cutsOf(Corners whole, const Corners& wanted, std::uint32_t cuts) {
         whole = both[second];
         found = found * 2 + second;
     }
-    return placeOf(whole) == placeOf(wanted) ? found : 0;
+    return placeOfCorners(whole) == placeOfCorners(wanted) ? found : 0;
 }
 
 } // namespace
@@ -95,14 +95,14 @@ std::array<SurfacePart, 2> halves(SurfacePart part) {
 std::vector<SurfacePart> partsOf(const TriangleMesh& other, const TriangleMesh& mesh,
                                  const std::vector<SurfacePart>& parts) {
     std::map<Place, std::vector<std::uint32_t>> at;
-    for (const SurfacePart& part : parts) at[placeOf(mesh.corners(part.triangle))];
+    for (const SurfacePart& part : parts) at[placeOfCorners(mesh.corners(part.triangle))];
     for (std::uint32_t t = 0; t < other.triangles.size() && !at.empty(); ++t)
-        if (const auto found = at.find(placeOf(other.corners(t))); found != at.end())
+        if (const auto found = at.find(placeOfCorners(other.corners(t))); found != at.end())
             found->second.push_back(t);
     std::vector<SurfacePart> result;
     for (const SurfacePart& part : parts) {
         const Corners whole = mesh.corners(part.triangle);
-        for (const std::uint32_t t : at[placeOf(whole)]) {
+        for (const std::uint32_t t : at[placeOfCorners(whole)]) {
             const Corners there = other.corners(t);
             const std::uint32_t cuts =
                 there == whole ? part.cuts : cutsOf(there, corners(mesh, part), part.cuts);
