@@ -130,12 +130,17 @@ private:
         return whole;
     }
 
+    Body bodyNamed(const std::string& name) const {
+        Body body;
+        const std::string free = freePrimName(result_.scene, name);
+        body.path = "/" + result_.scene.defaultPrim + "/" + free;
+        if (free != name) body.displayName = name;
+        return body;
+    }
+
     void addLink(const RobotLink& link) {
         SceneModel& scene = result_.scene;
-        Body body;
-        const std::string name = freePrimName(scene, link.name);
-        body.path = "/" + scene.defaultPrim + "/" + name;
-        if (name != link.name) body.displayName = link.name;
+        Body body = bodyNamed(link.name);
         body.named = link.named;
         LinkReport report{body.path, 0, request_.visual};
         const std::size_t failed = failures_.size();
@@ -190,10 +195,7 @@ private:
 
     void addSkin(const RobotSkin& skin) {
         SceneModel& scene = result_.scene;
-        Body body;
-        const std::string name = freePrimName(scene, skin.name);
-        body.path = "/" + scene.defaultPrim + "/" + name;
-        if (name != skin.name) body.displayName = skin.name;
+        Body body = bodyNamed(skin.name);
         body.mesh = skin.mesh;
         body.displayColor = skin.color.value_or(Vec3(0.80, 0.79, 0.76));
         body.visible = skin.visible;
