@@ -208,6 +208,7 @@ private:
     void one(Item& item, Task& task) {
         Item baked = item;
         Outcome outcome;
+        bool broken = false; // by what is no fault of the input, whether or not there was time for more
         try {
             outcome.report = timed(baked, [&](PairReport& report) { bakeOne(baked, task, report); });
         } catch (const InputError&) {
@@ -215,12 +216,12 @@ private:
             outcome.ends = !request_.failed;
         } catch (...) {
             outcome.error = std::current_exception();
-            outcome.ends = true;
+            outcome.ends = broken = true;
         }
         const bool left = task.late || interrupted();
         const std::lock_guard lock(state_);
         hide(task);
-        if (left) return;
+        if (left && !broken) return;
         failed_ = failed_ || outcome.ends;
         if (!outcome.error) store(baked, item);
         outcomes_.emplace(task.turn.item, std::move(outcome));
