@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace tss {
 
@@ -52,6 +53,19 @@ private:
     std::vector<std::optional<MeshQuery>> surfaces_;
 };
 
+/// Of all drives' samples, no more than 400 of them.
+std::vector<double> timesToLookAt(const SceneModel& scene) {
+    constexpr std::size_t most = 400;
+    std::set<double> all;
+    for (const Joint& joint : scene.joints)
+        for (const TimeSamples& drive : joint.drives) all.insert(drive.times.begin(), drive.times.end());
+    std::vector<double> times(all.begin(), all.end());
+    if (times.size() <= most) return times;
+    std::vector<double> some;
+    for (std::size_t k = 0; k < most; ++k) some.push_back(times[k * (times.size() - 1) / (most - 1)]);
+    return some;
+}
+
 } // namespace
 
 bool isLongChain(const SceneModel& scene, const Pair& pair) {
@@ -80,22 +94,30 @@ std::vector<double> distancesAtRest(const SceneModel& scene) {
     return distances;
 }
 
-std::vector<double> sharesCrossing(const SceneModel& scene, int poses) {
+std::vector<MotionContact> contactsInMotion(const SceneModel& scene,
+                                            std::span<const std::pair<int, int>> bodies) {
     Surfaces surfaces(scene);
-    std::vector<double> shares(scene.pairs.size(), 0);
-    const double step = (scene.endTimeCode - scene.startTimeCode) / std::max(poses - 1, 1);
-    for (int k = 0; k < poses; ++k) {
-        const std::vector<Pose> placed =
-            posedBodies(scene, drivenValues(scene, scene.startTimeCode + k * step));
-        for (std::size_t p = 0; p < shares.size(); ++p) {
-            const auto& [a, b] = std::pair(scene.pairs[p].bodyA, scene.pairs[p].bodyB);
-            if (scene.bodies[a].mesh.empty() || scene.bodies[b].mesh.empty()) continue;
-            const double near = 1e-6 * smallerDiagonal(scene, scene.pairs[p]);
+    std::vector<MotionContact> contacts(bodies.size());
+    const std::vector<double> times = timesToLookAt(scene);
+    for (const double time : times) {
+        const std::vector<Pose> placed = posedBodies(scene, drivenValues(scene, time));
+        for (std::size_t p = 0; p < bodies.size(); ++p) {
+            const auto [a, b] = bodies[p];
+            const TriangleMesh &meshA = scene.bodies[a].mesh, &meshB = scene.bodies[b].mesh;
+            if (meshA.empty() || meshB.empty()) continue;
+            const double smaller = std::min(diagonal(meshA), diagonal(meshB)), crossing = 1e-6 * smaller,
+                         within = contacts[p].near ? crossing : nearShare * smaller;
+            const MeshQuery &surfaceA = surfaces.of(a), &surfaceB = surfaces.of(b);
             const Pose bToA = placed[a].inverse(Eigen::Isometry) * placed[b];
-            if (surfaces.of(a).distanceTo(surfaces.of(b), bToA, near) < near) shares[p] += 1.0 / poses;
+            if ((bToA * surfaceB.centre() - surfaceA.centre()).norm() >
+                surfaceA.radius() + surfaceB.radius() + within)
+                continue;
+            const double distance = surfaceA.distanceTo(surfaceB, bToA, within);
+            contacts[p].near = contacts[p].near || distance < within;
+            if (distance < crossing) contacts[p].crossing += 1.0 / static_cast<double>(times.size());
         }
     }
-    return shares;
+    return contacts;
 }
 
 double usualTolerance(const SceneModel& scene) {

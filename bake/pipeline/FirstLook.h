@@ -1,6 +1,8 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace tss {
@@ -14,9 +16,15 @@ bool isLongChain(const SceneModel& scene, const Pair& pair);
 /// more than that, which is quick: room beyond makes no tolerance of setFirstTolerances() another.
 std::vector<double> distancesAtRest(const SceneModel& scene);
 
-/// Of each pair the share of so many poses of the scene's motion, evenly spaced in time, at which the
-/// surfaces of its bodies cross.
-std::vector<double> sharesCrossing(const SceneModel& scene, int poses);
+/// How near the surfaces of two bodies come in the scene's own motion.
+struct MotionContact {
+    bool near = false;   ///< at some pose nearer than a ninth of the smaller body's diagonal
+    double crossing = 0; ///< the share of the poses at which they cross
+};
+
+/// The same of each two bodies, at the times of the drives' samples, or at 400 of them where there are more.
+std::vector<MotionContact> contactsInMotion(const SceneModel& scene,
+                                            std::span<const std::pair<int, int>> bodies);
 
 /// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
 double usualTolerance(const SceneModel& scene);

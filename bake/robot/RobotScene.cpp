@@ -6,7 +6,6 @@
 #include "bake/model/AddPair.h"
 #include "bake/robot/ReadMsh.h"
 #include "bake/robot/Shapes.h"
-#include "bake/scene/AllPairs.h"
 
 #include <algorithm>
 #include <optional>
@@ -64,7 +63,8 @@ public:
                 again = done[j] = placed[joint.child] = true;
             }
         }
-        noteSome(renamed_, 3);
+        if (!renamed_.empty())
+            result_.notes.push_back("joints have other names in the scene: " + firstOf(renamed_, 5));
         for (const RobotSkin& skin : robot_.skins) addSkin(skin);
         addPairs();
         addMotion();
@@ -233,22 +233,14 @@ private:
             motion.dofs.push_back(dof);
         }
         const std::string name = freePrimName(result_.scene, joint.name.empty() ? "joint" : joint.name);
-        if (name != joint.name && !joint.name.empty())
-            renamed_.push_back("joint " + joint.name + " is called " + name + " in the scene");
+        if (name != joint.name && !joint.name.empty()) renamed_.push_back(joint.name + " is " + name);
         chains_[index] = addJoints(result_.scene, joint.parent, joint.child, motion, name);
         for (int j : chains_[index]) result_.scene.joints[j].collisionEnabled = true;
     }
 
-    void noteSome(const std::vector<std::string>& notes, std::size_t most) {
-        result_.notes.insert(result_.notes.end(), notes.begin(),
-                             notes.begin() + std::min(most, notes.size()));
-        if (notes.size() > most)
-            result_.notes.push_back(std::to_string(notes.size() - most) + " more like this one");
-    }
-
     bool isWanted(int bodyA, int bodyB) const {
         if (unpaired_.contains(std::minmax(bodyA, bodyB))) return false;
-        if (request_.pairs == RobotPairs::All) return !seams_.contains(std::minmax(bodyA, bodyB));
+        if (request_.pairs != RobotPairs::Neighbours) return !seams_.contains(std::minmax(bodyA, bodyB));
         return std::ranges::any_of(robot_.joints, [&](const RobotJoint& joint) {
             return std::minmax(joint.parent, joint.child) == std::minmax(bodyA, bodyB);
         });
@@ -268,15 +260,14 @@ private:
         std::vector<Pair>& pairs = result_.scene.pairs;
         std::erase_if(pairs, [&](const Pair& pair) {
             const auto links = std::minmax(pair.bodyA, pair.bodyB);
-            return request_.pairs == RobotPairs::All && seams_.contains(links) && !unpaired_.contains(links);
+            return request_.pairs != RobotPairs::Neighbours && seams_.contains(links) &&
+                   !unpaired_.contains(links);
         });
         const std::size_t all = pairs.size();
         std::erase_if(pairs, [&](const Pair& pair) { return !isWanted(pair.bodyA, pair.bodyB); });
-        std::vector<std::string> unmade;
-        for (const AllPairs::Unmade& none : found.unmade)
-            if (isWanted(none.bodyA, none.bodyB)) unmade.push_back("no pair: " + none.note);
-        noteSome(unmade, 10);
-        if (request_.pairs == RobotPairs::All && pairs.size() < all)
+        std::ranges::copy_if(found.unmade, std::back_inserter(result_.unmade),
+                             [&](const AllPairs::Unmade& none) { return isWanted(none.bodyA, none.bodyB); });
+        if (request_.pairs != RobotPairs::Neighbours && pairs.size() < all)
             result_.notes.push_back("pairs whose collision the robot's files switch off, left out: " +
                                     std::to_string(all - pairs.size()));
     }
@@ -324,7 +315,7 @@ private:
     std::vector<InputError> failures_; ///< shapes that could not be had
     std::string shapeless_;            ///< links that have none for that
     std::vector<std::string> points_;  ///< links with a shape that is a point
-    std::vector<std::string> renamed_; ///< joints, as notes
+    std::vector<std::string> renamed_; ///< joints, "old is new"
     RobotScene result_;
     std::map<std::string, TriangleMesh> meshes_;
     std::size_t triangles_ = 0;

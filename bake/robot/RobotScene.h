@@ -2,6 +2,7 @@
 #include "bake/geometry/Import.h"
 #include "bake/model/SceneModel.h"
 #include "bake/robot/Robot.h"
+#include "bake/scene/AllPairs.h"
 
 #include <functional>
 
@@ -11,11 +12,15 @@ namespace tss {
 /// for one that may not be read or of which it is not known where to look.
 using FindMesh = std::function<std::string(const std::string& name)>;
 
-enum class RobotPairs { Neighbours, All };
+enum class RobotPairs {
+    Neighbours, ///< the links of each joint
+    All,        ///< links that move against each other
+    Near,       ///< these, and of a character's bones those that its animation has near each other
+};
 
 struct RobotSceneRequest {
     bool visual = false; ///< take the visual shapes of a link, not those of its collision
-    RobotPairs pairs = RobotPairs::All;
+    RobotPairs pairs = RobotPairs::Near;
 };
 
 /// What became of a link, for people and scripts.
@@ -28,6 +33,8 @@ struct LinkReport {
 struct RobotScene {
     SceneModel scene;
     std::vector<LinkReport> links; ///< one per link
+    std::vector<AllPairs::Unmade>
+        unmade; ///< links that were wanted as a pair and cannot be one; not in notes
     std::vector<std::string> notes;
 };
 

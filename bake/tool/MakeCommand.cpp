@@ -200,8 +200,9 @@ void addRobotOptions(CLI::App& command, const std::shared_ptr<MakeArguments>& ar
         ->capture_default_str();
     command
         .add_option("--pairs", robot.pairs,
-                    "neighbours: of each joint; all: of all links that move against each other")
-        ->check(CLI::IsMember({"neighbours", "all"}))
+                    "neighbours: of each joint; all: of all links that move against each other; near: these, "
+                    "but of a character's bones only those that its animation has near each other")
+        ->check(CLI::IsMember({"neighbours", "all", "near"}))
         ->excludes(command.get_option("--a"))
         ->capture_default_str();
     command

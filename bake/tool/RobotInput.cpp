@@ -9,6 +9,7 @@
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/scene/Utf8.h"
+#include "bake/tool/AnimatedPairs.h"
 #include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_USDA
 #include "bake/usd/Stage.h"
@@ -112,32 +113,15 @@ MadeScene readUsdScene(const std::string& file, const Packages&, const RobotScen
 
 #endif
 
-/// Bones of characters that their animation has in each other half of the time or more are no pair: they
-/// would hold it all along, and what is cut out of one mesh lies in each other where it bends.
-void leaveOutHolding(RobotScene& made) {
-    constexpr int poses = 24;
-    SceneModel& scene = made.scene;
-    const std::vector<double> shares = sharesCrossing(scene, poses);
-    std::vector<std::string> names;
-    std::size_t next = 0;
-    std::erase_if(scene.pairs, [&](const Pair& pair) {
-        const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
-        if (shares[next++] < 0.5 || a.visible || b.visible) return false;
-        names.push_back(primName(a.path) + " and " + primName(b.path));
-        return true;
-    });
-    if (!names.empty())
-        made.notes.push_back(
-            "no pair: bones that the animation has in each other half of the time or more, by "
-            "which they would be held: " +
-            firstOf(names, 10));
-}
-
 } // namespace
 
 MadeScene newScene(const Robot& robot, const RobotSceneRequest& request, const FindMesh& find) {
     MadeScene made{sceneOf(robot, request, find), {}};
-    if (!robot.skins.empty()) leaveOutHolding(made);
+    if (!robot.skins.empty()) keepPairsOfAnimation(made, request.pairs == RobotPairs::Near);
+    const std::size_t told = std::min<std::size_t>(made.unmade.size(), 10);
+    for (std::size_t k = 0; k < told; ++k) made.notes.push_back("no pair: " + made.unmade[k].note);
+    if (made.unmade.size() > told)
+        made.notes.push_back(fmt::format("no pair: {} more for such reasons", made.unmade.size() - told));
     made.distances = distancesAtRest(made.scene);
     setFirstTolerances(made.scene, made.distances);
     return made;
@@ -220,7 +204,7 @@ MadeScene readRobotScene(const RobotFile& from) {
         throw InputError(Where{from.input}, "is a scene already; expected a robot's file");
     RobotSceneRequest request;
     request.visual = from.geometry == "visual";
-    request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    if (from.pairs != "near") request.pairs = from.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
     if (isRigName(from.input)) {
         if (!from.srdf.empty()) throw CLI::ValidationError("--srdf", "is for URDF and MJCF");
         return readRigScene(from, request);

@@ -10,7 +10,7 @@ struct RobotFile {
     std::vector<std::string> packages; ///< "NAME=DIR"
     std::string srdf;                  ///< a file; empty: none
     std::vector<std::string> offsets;  ///< "LINK=X,Y,Z", see moveLinks()
-    std::string geometry = "collision", pairs = "all";
+    std::string geometry = "collision", pairs = "near";
     double metersPerUnit = 0; ///< of a character; 0: what its file states
     char upAxis = '\0';       ///< the same, 'Y' or 'Z'
 };

@@ -122,7 +122,7 @@ std::string unlikeUnits(const SceneModel& scene) {
 void makeWholeScene(const WholeSceneArguments& arguments, const Console& console) {
     const Robot robot = robotOf(arguments);
     RobotSceneRequest request;
-    request.pairs = arguments.pairs == "all" ? RobotPairs::All : RobotPairs::Neighbours;
+    request.pairs = arguments.pairs == "neighbours" ? RobotPairs::Neighbours : RobotPairs::All;
     MadeScene made = newScene(robot, request, [](const std::string& name) { return name; });
     addSoftBodies(made, robot, arguments, console);
     if (const std::string text = unlikeUnits(made.scene); !text.empty()) made.notes.push_back(text);

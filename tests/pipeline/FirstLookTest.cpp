@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <span>
+
 using namespace tss;
 
 namespace {
@@ -54,4 +56,36 @@ TEST_CASE("a first look knows how near bodies are as far as room makes their tol
                      expected = apart == 0 ? diagonal / 100 : std::clamp(0.3 * apart, finest, usual);
         CHECK(std::stod(scene.pairs[0].settings.at("tolerance")) == Approx(1000 * expected).epsilon(0.05));
     }
+}
+
+TEST_CASE("what a motion brings near is seen at any of its keys, and how long surfaces cross") {
+    SceneModel scene;
+    scene.metersPerUnit = 1;
+    scene.defaultPrim = "S";
+    for (const double x : {0.0, 5.0}) {
+        Body body;
+        body.path = x > 0 ? "/S/B" : "/S/A";
+        body.mesh = boxMesh({x, 0, 0}, {x + 1, 1, 1});
+        scene.bodies.push_back(body);
+    }
+    Motion motion;
+    motion.dofs = {joints::slide({1, 0, 0}, -5, 5)};
+    addPair(scene, 0, 1, motion, "AB");
+    const double ninth = std::sqrt(3.0) / 9;
+    const auto contact = [&](const TimeSamples& drive) {
+        scene.joints[0].drives = {drive};
+        const std::pair<int, int> both(0, 1);
+        return contactsInMotion(scene, std::span(&both, 1)).front();
+    };
+    CHECK_FALSE(contact({{0, 1, 2}, {0, -4 + 1.01 * ninth, 0}}).near);
+    CHECK(contact({{0, 1, 2}, {0, -4 + 0.99 * ninth, 0}}).near);
+    CHECK(contact({{0, 1, 2}, {0, -4 + 0.99 * ninth, 0}}).crossing == 0);
+    CHECK(contact({{0, 1, 2, 3}, {0, -4.5, -4.2, 0}}).crossing == Approx(0.5));
+    // Of a thousand keys 400 are looked at, first and last among them.
+    TimeSamples many;
+    for (int k = 0; k < 1000; ++k) {
+        many.times.push_back(k);
+        many.values.push_back(k == 999 ? -4.5 : 0);
+    }
+    CHECK(contact(many).crossing == Approx(1.0 / 400));
 }

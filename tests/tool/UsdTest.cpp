@@ -2,9 +2,11 @@
 #include "bake/scene/SceneFile.h"
 #include "tests/tool/Shell.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 using Json = nlohmann::json;
 
@@ -14,7 +16,7 @@ TEST_CASE("every command of docs/USD.md does what it says, one after the other")
     const Folder folder;
     const std::vector<Ran> commands = runPage("USD.md", folder.path());
     REQUIRE(commands.size() == 10);
-    CHECK(commands[1].out.find("wrote glove.tss: 6 parts, 5 joints, 6 pairs") != std::string::npos);
+    CHECK(commands[1].out.find("wrote glove.tss: 6 parts, 5 joints, 4 pairs") != std::string::npos);
     // The glove's fingers meet before they are as its animation has them.
     CHECK(commands[3].out.find("slid") != std::string::npos);
     CHECK(readText(folder.path() / "again.tss") == readText(folder.path() / "baked.tss"));
@@ -35,7 +37,25 @@ TEST_CASE("bones that an animation has in each other half of the time or more ar
     CHECK(made.out.find(
               "no pair: bones that the animation has in each other half of the time or more, by which "
               "they would be held: LeftTip and RightTip\n") != std::string::npos);
-    CHECK(made.out.find("5 joints, 5 pairs") != std::string::npos);
+    CHECK(made.out.find("5 joints, 3 pairs") != std::string::npos);
+}
+
+TEST_CASE("pairs of a character are of bones that its animation has near each other, unless all are wanted") {
+    const Folder folder;
+    const std::string make = "make " OSGTSS_SOURCE_DIR "/examples/arm/glove.usda -o ";
+    const Ran near = runTss(make + "near.tss", folder.path());
+    CHECK(near.out.find("left out: 2 pairs of bones that the animation never has nearer") !=
+          std::string::npos);
+    REQUIRE(runTss(make + "all.tss --pairs all", folder.path()).exit == 0);
+    const auto pairsOf = [&](const char* file) {
+        std::set<std::string> paths;
+        for (const tss::Pair& pair : tss::loadScene(folder / file).pairs) paths.insert(pair.path);
+        return paths;
+    };
+    const std::set<std::string> some = pairsOf("near.tss"), all = pairsOf("all.tss");
+    CHECK(some.size() == 4);
+    CHECK(all.size() == 6);
+    CHECK(std::ranges::includes(all, some));
 }
 
 #ifdef OSGTSS_HAVE_URDF
