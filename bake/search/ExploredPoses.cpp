@@ -14,15 +14,9 @@ void keepInside(const Motion& motion, Values q, std::vector<Values>& out) {
     if (withinLimits(motion, q, 0)) out.push_back(std::move(q));
 }
 
-void addGrid(const Motion& motion, std::size_t samples, std::vector<Values>& out) {
+/// The poses of a grid of as many values of each DOF that moves.
+void addGrid(const Motion& motion, std::size_t side, std::vector<Values>& out) {
     const std::size_t dofs = motion.dofCount();
-    std::size_t moving = 0;
-    for (const Dof& dof : motion.dofs) moving += dof.upper > dof.lower;
-    if (moving == 0) samples = 1;
-    // The root can round down just below a whole number.
-    const auto side = moving ? std::max<std::size_t>(2, static_cast<std::size_t>(
-                                                            std::pow(double(samples), 1.0 / moving) + 1e-9))
-                             : 1;
     std::vector<std::size_t> index(dofs, 0);
     Values q(dofs);
     for (;;) {
@@ -40,6 +34,30 @@ void addGrid(const Motion& motion, std::size_t samples, std::vector<Values>& out
         }
         if (k == dofs) return;
     }
+}
+
+/// Poses with each DOF at one of its limits.
+void addCorners(const Motion& motion, std::size_t count, std::mt19937_64 random, std::vector<Values>& out) {
+    Values q(motion.dofCount());
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < q.size(); ++k)
+            q[k] = random() >> 63 ? motion.dofs[k].upper : motion.dofs[k].lower;
+        keepInside(motion, q, out);
+    }
+}
+
+/// About so many on a grid that includes the limits, or, where its corners alone are more than twice as many,
+/// at some of these.
+void addSpread(const Motion& motion, std::size_t samples, std::uint64_t seed, std::vector<Values>& out) {
+    std::size_t moving = 0;
+    for (const Dof& dof : motion.dofs) moving += dof.upper > dof.lower;
+    if (moving == 0) return addGrid(motion, 1, out);
+    // The root can round down just below a whole number.
+    const double side = std::pow(double(samples), 1.0 / double(moving)) + 1e-9;
+    if (std::pow(2, double(moving)) > 2 * double(samples))
+        addCorners(motion, samples, std::mt19937_64(seed + 1), out);
+    else
+        addGrid(motion, std::max<std::size_t>(2, static_cast<std::size_t>(side)), out);
 }
 
 /// From the lower to the upper limit that the line start + t * direction meets.
@@ -68,7 +86,7 @@ void addLine(const Motion& motion, const Values& start, const Values& direction,
 std::vector<Values> exploredPoses(const Motion& motion, std::size_t samples, std::uint64_t seed) {
     constexpr std::size_t perLine = 16;
     std::vector<Values> poses;
-    addGrid(motion, std::max<std::size_t>(1, samples / 2), poses);
+    addSpread(motion, std::max<std::size_t>(1, samples / 2), seed, poses);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     for (std::size_t line = 0; line < (samples - samples / 2) / perLine; ++line) {

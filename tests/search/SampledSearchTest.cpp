@@ -52,6 +52,25 @@ TEST_CASE("explored poses include both limits, stay inside the planes and repeat
     for (const auto& q : poses) CHECK(withinLimits(scene.motion, q));
 }
 
+TEST_CASE("of many values some corners are explored, and no more poses than are asked for") {
+    Motion motion;
+    for (int k = 0; k < 24; ++k) motion.dofs.push_back(joints::turn({0, 0, 0}, {0, 0, 1}, -0.1 * k, 1));
+    const auto poses = exploredPoses(motion, 128, 1);
+    CHECK(poses.size() == 128);
+    const auto isCorner = [&](const std::vector<double>& q) {
+        for (std::size_t k = 0; k < q.size(); ++k)
+            if (q[k] != motion.dofs[k].lower && q[k] != 1) return false;
+        return true;
+    };
+    CHECK(std::ranges::count_if(poses, isCorner) == 64);
+    for (std::size_t k = 0; k < 24; ++k) { // each value is at either limit
+        CHECK(std::ranges::any_of(poses, [&](const auto& q) { return q[k] == motion.dofs[k].lower; }));
+        CHECK(std::ranges::any_of(poses, [&](const auto& q) { return q[k] == 1; }));
+    }
+    motion.dofs.resize(7); // all of their corners are not twice as many
+    CHECK(exploredPoses(motion, 128, 1).size() == 192);
+}
+
 TEST_CASE("a motion without freedom is explored at its one pose") {
     Motion fixed;
     CHECK(exploredPoses(fixed, 100, 1).size() == 1);
