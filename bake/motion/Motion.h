@@ -54,8 +54,8 @@ inline double excess(const LimitPlane& plane, std::span<const double> q) {
     return sum;
 }
 
-/// The longest chain that is served.
-inline constexpr std::size_t maxDofs = 16;
+/// The longest chain that is served: a finger and the thigh of a figure whose bones turn about three axes.
+inline constexpr std::size_t maxDofs = 32;
 
 /// Values or changes of DOFs, room for the longest chain.
 using DofValues = std::array<double, maxDofs>;

@@ -8,6 +8,7 @@
 #include "bake/geometry/PartSet.h"
 #include "bake/geometry/Solid.h"
 #include "bake/pipeline/RestRule.h"
+#include "bake/reduce/CertifiedCover.h"
 #include "bake/search/CertifiedSearch.h"
 #include "bake/spheres/FitMetrics.h"
 #include "bake/spheres/RoundToFloat.h"

@@ -47,9 +47,6 @@ PairSpheres fillPair(const SceneModel& scene, const Pair& pair, const Motion& mo
 PairSpheres fillWithin(const SceneModel& scene, const Pair& pair, const Motion& motion,
                        const BakeOptions& options, double margin, const Progress& progress = {});
 
-/// Over more DOFs than these no cover is looked for.
-constexpr std::size_t mostCoverDofs = 6;
-
 /// Whether there are more DOFs than a contact zone and a cover can be found for in usual time; with no limit
 /// of time (a budget of 0) more of them count as few.
 bool manyDofs(const Motion& motion, const BakeOptions& options);

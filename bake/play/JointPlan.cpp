@@ -53,9 +53,12 @@ void addGroup(const SceneModel& scene, const std::vector<TableSlots>& tables, Jo
     plan.groups.push_back({pairs, slots, JointResponder(entries, static_cast<int>(slots.size()))});
 }
 
-/// Puts the tables into groups that are answered together. A group holds at most maxDofs values of joints;
-/// each table goes to the group with room for it that it adds the fewest values to, or starts a new one. That
-/// gives few groups, not always the fewest.
+/// Values of joints that several tables together may have: what answers them takes time with the cube.
+constexpr std::size_t mostInGroup = 16;
+
+/// Puts the tables into groups that are answered together. A group holds at most mostInGroup values of
+/// joints, or those of its first table; each table goes to the group with room for it that it adds the fewest
+/// values to, or starts a new one. That gives few groups, not always the fewest.
 std::vector<std::vector<TableSlots>> grouped(const std::vector<TableSlots>& tables) {
     std::vector<std::vector<TableSlots>> groups;
     std::vector<std::set<std::size_t>> slots;
@@ -64,7 +67,9 @@ std::vector<std::vector<TableSlots>> grouped(const std::vector<TableSlots>& tabl
         for (std::size_t g = 0; g < groups.size(); ++g) {
             const auto more = static_cast<std::size_t>(std::ranges::count_if(
                 table.slots, [&](std::size_t slot) { return !slots[g].contains(slot); }));
-            if (slots[g].size() + more > maxDofs || (best < groups.size() && more >= fewest)) continue;
+            if ((more > 0 && slots[g].size() + more > mostInGroup) ||
+                (best < groups.size() && more >= fewest))
+                continue;
             best = g;
             fewest = more;
         }
@@ -165,6 +170,7 @@ std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double
                                  std::vector<double>& q, std::vector<JointWorkspace>& workspaces) {
     constexpr int mostRounds = 16;
     std::vector<GroupAnswer> answers(plan.groups.size());
+    std::vector<DofValues> left(plan.groups.size()); ///< by each group when it last answered
     bool settled = false;
     for (int round = 0; round < mostRounds && !settled; ++round) {
         settled = true;
@@ -175,12 +181,14 @@ std::vector<GroupAnswer> resolve(const JointPlan& plan, const std::vector<double
                 from[k] = last[group.slots[k]];
                 asked[k] = q[group.slots[k]];
             }
+            if (round > 0 && asked == left[g]) continue; // no other group has moved it
             const JointAnswer answer = group.responder.respond(from.data(), asked.data(), workspaces[g]);
             bool changed = false;
             for (std::size_t k = 0; k < group.slots.size(); ++k) {
                 changed = changed || answer.q[k] != asked[k];
                 q[group.slots[k]] = answer.q[k];
             }
+            left[g] = answer.q;
             // A group's answer is that of the first round, or of the last that changed a value.
             if (round == 0 || changed) answers[g] = {answer, heldOf(answer, workspaces[g])};
             if (changed && plan.groups.size() > 1) settled = false;

@@ -161,6 +161,9 @@ void check(const CoverOptions& options) {
 CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const CandidatePairs* candidates,
                            const Motion& motion, const CoverOptions& options, const Progress& progress) {
     check(options);
+    if (motion.dofCount() > mostCoverDofs)
+        throw InputError("cover: expected at most " + std::to_string(mostCoverDofs) + " DOFs, found " +
+                         std::to_string(motion.dofCount()));
     const CoverProblem problem(a, b, motion, options.rule, candidates ? &candidates->pairs : nullptr);
     CoverResult result = CoverSearch(problem, options, progress).run();
     if (result.complete && result.pairs.empty() && !candidates && options.rule.empty())

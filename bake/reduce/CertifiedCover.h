@@ -5,6 +5,9 @@
 
 namespace tss {
 
+/// Over more DOFs no cover is looked for.
+inline constexpr std::size_t mostCoverDofs = 6;
+
 struct CoverOptions {
     double epsilon = 0;   ///< how far the table's gap may exceed that of all pairs, scene units; 0: lossless
     double gapDepth = 0;  ///< gap-true down to this depth (METHOD 3.4) ...
@@ -33,7 +36,8 @@ struct CoverResult : Reduced {
 /// The smallest list of pairs found that answers like all of them, for every pose of Q and not for samples
 /// (METHOD 3.3, 3.4). candidates null: all pairs of the two sets, found from the two sphere trees. With
 /// candidates the answer is about those pairs alone. No pairs in a complete result: a proof that the models
-/// never collide. lowerBound is what every such list needs.
+/// never collide. lowerBound is what every such list needs. Throws InputError for more than mostCoverDofs
+/// DOFs.
 CoverResult certifiedCover(const SphereSet& a, const SphereSet& b, const CandidatePairs* candidates,
                            const Motion& motion, const CoverOptions& options = {},
                            const Progress& progress = {});

@@ -20,10 +20,11 @@ bool deeper(const PairInCell& x, const PairInCell& y) {
 /// the cell where f is largest, then move DOFs towards their other end, first those that lower f least for
 /// each unit by which they lower the gap of p. As any f > `answer` will do, part of the excess is given up to
 /// end inside the constraint rather than on it. k null: the corner where the gap of p is least.
-std::array<double, maxDofs> extremeOffset(const CellMotion& motion, const PairInCell* k, const PairInCell& p,
-                                          double weight, double level, double answer) {
-    std::array<double, maxDofs> offset{}, price{};
-    std::array<std::size_t, maxDofs> flippable{}; // DOFs whose other end has a smaller gap of p
+std::array<double, mostCoverDofs> extremeOffset(const CellMotion& motion, const PairInCell* k,
+                                                const PairInCell& p, double weight, double level,
+                                                double answer) {
+    std::array<double, mostCoverDofs> offset{}, price{};
+    std::array<std::size_t, mostCoverDofs> flippable{}; // DOFs whose other end has a smaller gap of p
     std::size_t count = 0;
     double gap = p.gap;
     for (std::size_t l = 0; l < motion.dofs(); ++l) {
@@ -243,7 +244,7 @@ std::optional<Counterexample> CellExaminer::counterexampleElsewhere(const CellMo
 /// A counterexample at an offset from the centre, where there is one. answering: the member with the least
 /// gap there, or null.
 std::optional<Counterexample> CellExaminer::counterexampleAt(const CellMotion& motion,
-                                                             const std::array<double, maxDofs>& offset,
+                                                             const std::array<double, mostCoverDofs>& offset,
                                                              const PairInCell*& answering) const {
     std::vector<double> q(motion.dofs());
     for (std::size_t k = 0; k < q.size(); ++k)

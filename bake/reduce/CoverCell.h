@@ -63,7 +63,7 @@ private:
     std::optional<Counterexample> counterexampleAtCentre(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleElsewhere(const CellMotion& motion) const;
     std::optional<Counterexample> counterexampleAt(const CellMotion& motion,
-                                                   const std::array<double, maxDofs>& offset,
+                                                   const std::array<double, mostCoverDofs>& offset,
                                                    const PairInCell*& answering) const;
     void deepestBelow(const CellMotion& motion, ContactPair& best, double& gap) const;
     std::size_t widestDof(const CellMotion& motion) const;

@@ -1,18 +1,20 @@
 #pragma once
+#include "bake/reduce/CertifiedCover.h"
 #include "bake/reduce/CoverProblem.h"
 #include "bake/search/PairDistanceBounds.h"
 
 namespace tss {
 
 /// A pair at the centre pose of a cell, with bounds of its distance all over the cell.
-struct PairInCell : PairDistanceBounds {
+struct PairInCell : PairDistanceBounds<mostCoverDofs> {
     ContactPair contactPair;
     std::uint32_t member = 0; ///< its number in the cover, where it is a member
     double gap;               ///< at the cell's centre pose, scene units
 
     PairInCell(const CellMotion& cell, const Vec3& x, const CellMotion::PointMotion& moved,
                const Vec3& centreA, const ContactPair& p)
-        : PairDistanceBounds(cell, x, moved, centreA), contactPair(p), gap(distance - p.contactDistance) {}
+        : PairDistanceBounds<mostCoverDofs>(cell, x, moved, centreA), contactPair(p),
+          gap(distance - p.contactDistance) {}
 };
 
 /// Whether k answers wherever p needs an answer, at every pose of the cell (METHOD 3.3, domination by

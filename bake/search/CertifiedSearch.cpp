@@ -99,7 +99,7 @@ private:
         const Sphere &sa = p_.a[pair.a], &sb = p_.b[pair.b];
         const double limit = sa.radius + sb.radius + p_.rule.threshold(pair) + p_.margin;
         if (limit < -p_.rounding || found_.contains(pair) || p_.known.contains(pair)) return;
-        const PairDistanceBounds at(motion, x, moved, sa.centre);
+        const PairDistanceBounds<> at(motion, x, moved, sa.centre);
         if (at.staysAbove(std::max(limit, 0.0), p_.rounding)) return;
         if (moved.move <= p_.tolerance || smallest_ ||
             (at.distance <= limit && withinLimits(p_.rates.motion(), motion.centre()))) {

@@ -9,12 +9,14 @@ namespace tss {
 /// of the sphere of B in A's frame; with y = x - c_i:
 ///   |y| - move                               <= |y(q)| <= |y| + move
 ///   |y|^2 - 2|slope|.h - 2|y| remainder      <= |y(q)|^2 <= |y|^2 + 2|slope|.h + 2|y| remainder + move^2
+/// mostDofs: of the cell, room for the slope.
+template <std::size_t mostDofs = maxDofs>
 struct PairDistanceBounds {
     Vec3 x, y;
     double squared, distance; ///< |y|^2 and |y|
     double move, remainder;
-    double tilt;                       ///< |slope| . h
-    std::array<double, maxDofs> slope; ///< y . J: half the slope of |y|^2
+    double tilt;                        ///< |slope| . h
+    std::array<double, mostDofs> slope; ///< y . J: half the slope of |y|^2
 
     PairDistanceBounds(const CellMotion& cell, const Vec3& x, const CellMotion::PointMotion& moved,
                        const Vec3& centreA)

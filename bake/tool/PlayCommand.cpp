@@ -1,6 +1,7 @@
 #include "bake/base/AtomicFile.h"
 #include "bake/base/Error.h"
 #include "bake/base/FramePattern.h"
+#include "bake/base/Words.h"
 #include "bake/model/SourceHash.h"
 #include "bake/model/UnderSkin.h"
 #include "bake/motion/WholeTurn.h"
@@ -198,11 +199,12 @@ nlohmann::json sayParts(const SkinModel& skin, const SkinCosts& costs, double se
 
 /// What is played though nothing was baked for it, in words.
 std::vector<std::string> unbaked(const SceneModel& scene) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, pairs;
     for (const Pair& pair : scene.pairs)
-        if (!pair.table && !pair.proof)
-            warnings.push_back("pair " + pair.path +
-                               " is not kept apart: it has no table, tss bake makes one");
+        if (!pair.table && !pair.proof) pairs.push_back(pair.path);
+    if (!pairs.empty())
+        warnings.push_back("not kept apart: " + counted(pairs.size(), "pair") +
+                           " without a table, which tss bake makes: " + firstOf(pairs, 10));
     for (const SkinModel& skin : scene.skins)
         if (!skin.table)
             warnings.push_back(
