@@ -87,7 +87,7 @@ private:
     }
 
     HollowBodies entered(double reach) const {
-        if (!a_.solid.open() && !b_.solid.open()) return {};
+        if (options_.solid || (!a_.solid.open() && !b_.solid.open())) return {};
         const SphereSet a = a_.allSpheres(), b = b_.allSpheres();
         return findHollow({a_.solid, a_.surface, a, a_.spheres.protrusion},
                           {b_.solid, b_.surface, b, b_.spheres.protrusion}, motion_, reach, progress_);

@@ -27,6 +27,7 @@ struct ContactZoneOptions {
     /// The result of findNested() for this tolerance or a finer one, where it is known: it also holds for
     /// coarser ones.
     std::optional<Nesting> nesting = {};
+    bool solid = false; ///< openings count as closed whether or not the other body stands behind them
     double effort = 1; ///< share of the usual limit of work for finding what comes near, in (0, 1]
     MedialOptions medial;
     std::shared_ptr<WholeFits> kept; ///< spheres of whole bodies; null: none are kept

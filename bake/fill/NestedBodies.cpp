@@ -147,4 +147,8 @@ Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double 
             std::max(found[0] ? 0 : deepestIn(a), found[1] ? 0 : deepestIn(b))};
 }
 
+Nesting insideIsContact(const Solid& a, const Solid& b) {
+    return {{}, {true, true}, 0, std::max(deepestIn(a), deepestIn(b))};
+}
+
 } // namespace tss

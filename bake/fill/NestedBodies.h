@@ -41,4 +41,8 @@ struct NestingEffort {
 Nesting findNested(const Solid& a, const Solid& b, const Motion& motion, double reach,
                    const Progress& progress = {}, const NestingEffort& effort = {});
 
+/// What is known without a search where one body inside the other counts as contact: no part stands inside a
+/// body deeper than `deepest`.
+Nesting insideIsContact(const Solid& a, const Solid& b);
+
 } // namespace tss

@@ -29,6 +29,7 @@ constexpr std::array<Word<ReduceMethod>, 4> reduceWords{{{"cover", ReduceMethod:
                                                          {"none", ReduceMethod::None}}};
 constexpr std::array<Word<AtRest>, 3> atRestWords{
     {{"offset", AtRest::Offset}, {"ignore", AtRest::Ignore}, {"collide", AtRest::Collide}}};
+constexpr std::array<Word<Inside>, 2> insideWords{{{"free", Inside::Free}, {"contact", Inside::Contact}}};
 constexpr std::array<Word<bool>, 2> flagWords{{{"true", true}, {"false", false}}};
 
 template <class Value, std::size_t count>
@@ -191,6 +192,8 @@ std::vector<BakeOption> makeBakeOptions() {
          [](BakeOptions& o, Text key, Text text, double) { o.samples = count(key, text, 1); }},
         {"at-rest", "the region in which the meshes overlap at rest: " + listed(atRestWords),
          [](BakeOptions& o, Text key, Text text, double) { o.atRest = choice(key, text, atRestWords); }},
+        {"inside", "a body that stands inside the other, surfaces apart: " + listed(insideWords),
+         [](BakeOptions& o, Text key, Text text, double) { o.inside = choice(key, text, insideWords); }},
         {"budget", "",
          [](BakeOptions& o, Text, Text text, double) {
              o.budget = parseNumber(text, "--budget");

@@ -12,6 +12,12 @@
 namespace tss {
 
 enum class SearchMethod { Certified, Sampled };
+/// What a body is that stands inside the other, surfaces apart (METHOD 1.8).
+enum class Inside {
+    Free,    ///< no contact: the other one is hollow
+    Contact, ///< both bodies are solid
+};
+
 enum class ReduceMethod { Cover, Cooccurrence, Minimal, None };
 
 /// Settings of a bake, each of them one of bakeOptions(). Lengths in scene units.
@@ -27,6 +33,7 @@ struct BakeOptions {
     SearchMethod search = SearchMethod::Certified;
     int samples = 20000; ///< poses explored by the sampled search
     AtRest atRest = AtRest::Offset;
+    Inside inside = Inside::Free;
     bool conservative = true; ///< spheres contain the surface; otherwise they are inscribed
     bool keepSpheres = false; ///< store all generated spheres too
     /// Seconds for each pair's cover; 0: no limit. Not given: `mostLooks` is the limit. Over more than six

@@ -47,9 +47,9 @@ Table tableOf(const PairTask& task, const Selection& selection) {
     return table;
 }
 
-void noteFit(const Body& body, const SphereFit& fit, std::vector<std::string>& notes) {
+void noteFit(const Body& body, const SphereFit& fit, Inside inside, std::vector<std::string>& notes) {
     if (!fit.note.empty()) notes.push_back(body.path + ": " + fit.note);
-    if (!std::isfinite(fit.enclosed))
+    if (!std::isfinite(fit.enclosed) && inside == Inside::Free)
         notes.push_back(body.path +
                         ": whether the other body ever stands inside without touching could not be decided "
                         "for all poses: how early contact may be reported is not known");
@@ -90,8 +90,8 @@ struct PairBaker {
     /// Search, select, bound.
     Attempt tabulated(PairSpheres spheres) const {
         Attempt attempt{std::move(spheres), {}, {}, {}};
-        noteFit(scene.bodies[pair.bodyA], attempt.spheres.a, attempt.report.notes);
-        noteFit(scene.bodies[pair.bodyB], attempt.spheres.b, attempt.report.notes);
+        noteFit(scene.bodies[pair.bodyA], attempt.spheres.a, options.inside, attempt.report.notes);
+        noteFit(scene.bodies[pair.bodyB], attempt.spheres.b, options.inside, attempt.report.notes);
         try {
             attempt.made = tabulatePair(attempt.spheres, motion, options, attempt.report, progress);
         } catch (const BudgetEnded& error) {

@@ -61,7 +61,8 @@ double toleranceOf(const Body& a, const Body& b, const BakeOptions& options) {
 /// Spheres of two bodies whose surfaces are known never to come near each other: the coarsest of which a
 /// search shows the same, so that the proof can be repeated with them.
 PairSpheres coarsestApart(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                          HollowBodies hollow, const ContactZoneFit& fit, const Progress& progress) {
+                          HollowBodies hollow, const ContactZoneFit& fit, const BakeOptions& options,
+                          const Progress& progress) {
     SphereOptions how;
     const double smaller = smallerSize(a, b);
     for (how.tolerance = std::max(tolerance, smaller / 30);;) {
@@ -74,13 +75,23 @@ PairSpheres coarsestApart(const Body& a, const Body& b, const Motion& motion, do
                             fitSpheres(cleaned(meshOf(b)), howB, progress)};
         spheres.clearanceAtRest = fit.rest.clearance;
         if (neverCollide(spheres.a.spheres, spheres.b.spheres, motion, {}, 0, progress)) return spheres;
-        const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance, progress);
-        const bool moreHollow = now.a != hollow.a || now.b != hollow.b;
-        hollow = now;
-        if (moreHollow) continue;
+        if (options.inside == Inside::Free) {
+            const HollowBodies now = hollowBodies(a, b, spheres, hollow, motion, how.tolerance, progress);
+            const bool moreHollow = now.a != hollow.a || now.b != hollow.b;
+            hollow = now;
+            if (moreHollow) continue;
+        }
         if (how.tolerance <= tolerance) return spheres;
         how.tolerance = std::max(tolerance, how.tolerance / 2);
     }
+}
+
+/// What is known of one body inside the other, where spheres of this tolerance fill them.
+Nesting nestingOf(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
+                  double tolerance, const Progress& progress, const NestingEffort& effort = {}) {
+    const Solid solidA(cleaned(meshOf(a))), solidB(cleaned(meshOf(b)));
+    if (options.inside == Inside::Contact) return insideIsContact(solidA, solidB);
+    return findNested(solidA, solidB, motion, 2 * tolerance, progress, effort);
 }
 
 /// Medial spheres of the contact zone. known: if given, the result of findNested(), and all of both surfaces
@@ -98,14 +109,19 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
     zone.effort = options.effort;
     zone.margin = margin;
     zone.whole = known != nullptr;
-    if (known) zone.nesting = *known;
+    zone.solid = options.inside == Inside::Contact;
+    if (known)
+        zone.nesting = *known;
+    else if (zone.solid)
+        zone.nesting = nestingOf(a, b, motion, options, tolerance, progress);
     zone.kept = options.kept;
     zone.pathA = a.path;
     zone.pathB = b.path;
     const TriangleMesh meshA = cleaned(meshOf(a)), meshB = cleaned(meshOf(b));
     ContactZoneFit fit = fitContactZone(meshA, meshB, motion, zone, progress);
     if (fit.a.fit.spheres.empty() || fit.b.fit.spheres.empty())
-        return coarsestApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, progress);
+        return coarsestApart(a, b, motion, tolerance, {fit.a.fit.hollow, fit.b.fit.hollow}, fit, options,
+                             progress);
     return {std::move(fit.a.fit),
             std::move(fit.b.fit),
             std::move(fit.a.zone),
@@ -117,19 +133,13 @@ PairSpheres fillZone(const Body& a, const Body& b, const Motion& motion, const B
             {partsOf(a.mesh, meshA, fit.rest.region.a), partsOf(b.mesh, meshB, fit.rest.region.b)}};
 }
 
-Nesting nestingOf(const Body& a, const Body& b, const Motion& motion, double tolerance,
-                  const Progress& progress, const NestingEffort& effort = {}) {
-    return findNested(Solid(cleaned(meshOf(a))), Solid(cleaned(meshOf(b))), motion, 2 * tolerance, progress,
-                      effort);
-}
-
 /// Spheres of the other methods, which fill all of the bodies.
 PairSpheres fillWhole(const Body& a, const Body& b, const Motion& motion, const BakeOptions& options,
                       double tolerance, const Nesting* known, const Progress& progress) {
     PairSpheres spheres;
     Nesting nesting;
     if (options.spheres != SphereMethod::Surface) // these do not fill what is inside
-        nesting = known ? *known : nestingOf(a, b, motion, tolerance, progress);
+        nesting = known ? *known : nestingOf(a, b, motion, options, tolerance, progress);
     spheres.a = wholeBody(a, options, tolerance, nesting.outer.a, progress);
     spheres.b = wholeBody(b, options, tolerance, nesting.outer.b, progress);
     spheres.a.enclosed = nesting.apart();
@@ -345,7 +355,7 @@ PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motio
     const Body &a = scene.bodies[pair.bodyA], &b = scene.bodies[pair.bodyB];
     const double asked = toleranceOf(a, b, options);
     if (!asksForCover(options)) {
-        const Nesting nesting = nestingOf(a, b, motion, asked, progress);
+        const Nesting nesting = nestingOf(a, b, motion, options, asked, progress);
         return fill(a, b, motion, options, asked, &nesting, progress);
     }
     const double first = std::max(asked, std::sqrt(diagonal(a.mesh) * diagonal(b.mesh)) / 20);
@@ -353,9 +363,11 @@ PairSpheres fillToTestAll(const SceneModel& scene, const Pair& pair, const Motio
     // Holds for coarser ones too. Where that could not be decided, the body is taken for hollow: spheres on
     // its surface serve either case, so that walks would decide nothing.
     Nesting nesting =
-        nestingOf(a, b, motion, finest.tolerance, progress, {.probes = 10'000'000, .walks = false});
-    nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
-    nesting.undecided = {};
+        nestingOf(a, b, motion, options, finest.tolerance, progress, {.probes = 10'000'000, .walks = false});
+    if (options.inside == Inside::Free) {
+        nesting.outer = {nesting.outer.a || nesting.undecided.a, nesting.outer.b || nesting.undecided.b};
+        nesting.undecided = {};
+    }
     if (nesting.outer) // hollow bodies take more spheres
         finest = finestToTestAll(a, b, motion, options, finest.tolerance,
                                  toTestAllOfHollow(a, b, options, finest, nesting.outer), nesting, progress);

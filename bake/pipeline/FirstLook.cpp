@@ -30,9 +30,15 @@ double smallerDiagonal(const SceneModel& scene, const Pair& pair) {
 constexpr double usualShare = 1.0 / 30, roomShare = 0.3; ///< of the smaller diagonal, of the distance at rest
 constexpr double nearShare = usualShare / roomShare; ///< of that diagonal: from there on room does not count
 
+/// Of a character, whose skin is drawn in their place and bends otherwise than they.
+bool areBones(const SceneModel& scene, const Pair& pair) {
+    return !scene.bodies[pair.bodyA].visible && !scene.bodies[pair.bodyB].visible;
+}
+
 /// The tolerance of a first look at a pair whose meshes are so far apart at rest, scene units.
 double firstTolerance(const SceneModel& scene, const Pair& pair, double distance) {
     const double smaller = smallerDiagonal(scene, pair);
+    if (areBones(scene, pair)) return usualShare * smaller;
     if (!(distance > 0)) return smaller / 100;
     if (isLongChain(scene, pair)) return usualShare * smaller;
     return std::max(std::min(usualShare * smaller, roomShare * distance), smaller / 500);
@@ -118,6 +124,29 @@ std::vector<MotionContact> contactsInMotion(const SceneModel& scene,
         }
     }
     return contacts;
+}
+
+PairsLeftOut pairForAnimation(SceneModel& scene, const AreBones& areBones, bool near) {
+    std::vector<std::pair<int, int>> bones;
+    for (const Pair& pair : scene.pairs)
+        if (areBones(pair)) bones.emplace_back(pair.bodyA, pair.bodyB);
+    const std::vector<MotionContact> contacts = contactsInMotion(scene, bones);
+    PairsLeftOut leftOut;
+    std::size_t next = 0;
+    std::erase_if(scene.pairs, [&](Pair& pair) {
+        if (!areBones(pair)) return false;
+        const MotionContact& contact = contacts[next++];
+        const bool far = near && !contact.near;
+        if (contact.holds())
+            leftOut.held.push_back(primName(scene.bodies[pair.bodyA].path) + " and " +
+                                   primName(scene.bodies[pair.bodyB].path));
+        else if (far)
+            ++leftOut.far;
+        else
+            pair.settings["inside"] = "contact";
+        return contact.holds() || far;
+    });
+    return leftOut;
 }
 
 double usualTolerance(const SceneModel& scene) {

@@ -9,7 +9,6 @@
 #include "bake/robot/ReadRobot.h"
 #include "bake/scene/SceneLayer.h"
 #include "bake/scene/Utf8.h"
-#include "bake/tool/AnimatedPairs.h"
 #include "bake/tool/DofSpec.h"
 #ifdef OSGTSS_HAVE_USDA
 #include "bake/usd/Stage.h"
@@ -115,9 +114,39 @@ MadeScene readUsdScene(const std::string& file, const Packages&, const RobotScen
 
 } // namespace
 
+namespace {
+
+/// The pairs of a character, a scene with skins: see pairForAnimation(), also for what cannot be one.
+void pairBones(RobotScene& made, bool near) {
+    SceneModel& scene = made.scene;
+    const auto isBone = [&](int body) { return !scene.bodies[body].visible; };
+    const PairsLeftOut leftOut = pairForAnimation(
+        scene, [&](const Pair& pair) { return isBone(pair.bodyA) && isBone(pair.bodyB); }, near);
+    std::vector<std::pair<int, int>> unmade;
+    for (const AllPairs::Unmade& none : made.unmade) unmade.emplace_back(none.bodyA, none.bodyB);
+    const std::vector<MotionContact> contacts = contactsInMotion(scene, unmade);
+    std::size_t next = 0;
+    std::erase_if(made.unmade, [&](const AllPairs::Unmade& none) {
+        const MotionContact& contact = contacts[next++];
+        return isBone(none.bodyA) && isBone(none.bodyB) && (contact.holds() || (near && !contact.near));
+    });
+    if (!leftOut.held.empty())
+        made.notes.push_back(
+            "no pair: bones that the animation has in each other half of the time or more, by "
+            "which they would be held: " +
+            firstOf(leftOut.held, 10));
+    if (leftOut.far > 0)
+        made.notes.push_back(fmt::format(
+            "left out: {} of bones that the animation never has nearer to each other than a ninth "
+            "of the smaller one's size; --pairs all keeps them",
+            counted(leftOut.far, "pair")));
+}
+
+} // namespace
+
 MadeScene newScene(const Robot& robot, const RobotSceneRequest& request, const FindMesh& find) {
     MadeScene made{sceneOf(robot, request, find), {}};
-    if (!robot.skins.empty()) keepPairsOfAnimation(made, request.pairs == RobotPairs::Near);
+    if (!robot.skins.empty()) pairBones(made, request.pairs == RobotPairs::Near);
     const std::size_t told = std::min<std::size_t>(made.unmade.size(), 10);
     for (std::size_t k = 0; k < told; ++k) made.notes.push_back("no pair: " + made.unmade[k].note);
     if (made.unmade.size() > told)

@@ -128,6 +128,49 @@ TEST_CASE("over many DOFs a body of which that could not be decided is hollow: c
     CHECK(spheres.protrusions < 0.5);
 }
 
+TEST_CASE(
+    "where a body inside another counts as contact both are solid, and the bound is of how deep it is") {
+    Through through(-4, 4);
+    through.motion.dofs[0].rest = 4;
+    for (const bool opened : {false, true}) {
+        CAPTURE(opened);
+        if (opened) // behind which nobody looks for the other body
+            std::erase_if(through.large.triangles, [&](const Tri& t) {
+                return std::ranges::all_of(t, [&](int v) { return through.large.vertices[v].z() > 1.8; });
+            });
+        SceneModel scene = sceneOf(through, false, "0.05");
+        bake(scene, {});
+        REQUIRE(scene.pairs[0].table);
+        CHECK_FALSE(query(*scene.pairs[0].table, std::vector{0.0}).hit());
+        scene.pairs[0].settings["inside"] = "contact";
+        bake(scene, {});
+        const Pair& pair = scene.pairs[0];
+        REQUIRE(pair.table);
+        CHECK(query(*pair.table, std::vector{0.0}).hit());
+        CHECK_FALSE(query(*pair.table, std::vector{4.0}).hit());
+        CHECK(pair.table->boundEarly.has_value() == !opened);
+        if (!opened) CHECK(*pair.table->boundEarly == Approx(2).epsilon(0.01));
+        const PairVerdict verdict = verifyPair(scene, pair);
+        INFO(verdict.reason);
+        CHECK(verdict.holds());
+    }
+}
+
+TEST_CASE(
+    "over many DOFs a body inside another is no reason to take that one for hollow where it is contact") {
+    const SceneModel scene = sceneOf(Through(-4, 12), false, "0.05");
+    Motion motion = pairMotion(scene, scene.pairs[0]);
+    addTurns(motion, {0, 0.3, 0}, 3);
+    BakeOptions options;
+    options.tolerance = 0.05;
+    options.inside = Inside::Contact;
+    const PairSpheres spheres = fillToTestAll(scene, scene.pairs[0], motion, options, {});
+    CHECK_FALSE(spheres.a.hollow);
+    CHECK_FALSE(spheres.b.hollow);
+    CHECK(spheres.a.enclosed == Approx(2).epsilon(0.01));
+    CHECK(spheres.protrusions < 0.5);
+}
+
 TEST_CASE("planes that keep a body out of another keep that one from being hollow") {
     Through through(-4, 4);
     through.motion.dofs.push_back(joints::slide(Vec3::UnitY(), 0, 4));
