@@ -174,7 +174,8 @@ TEST_CASE("a motion played without tables says that nothing is kept apart") {
     writeText(folder.path() / "q.csv", "0\n10\n");
     const Ran ran = runTss("play swing.tss --motion q.csv -o r.csv", folder.path());
     CHECK(ran.exit == 0);
-    CHECK(ran.out.find("/swing/Joint is not kept apart") != std::string::npos);
+    CHECK(ran.out.find("not kept apart: 1 pair without a table, which tss bake makes: /swing/Joint") !=
+          std::string::npos);
 }
 
 TEST_CASE("a file that is read is not overwritten by the answer") {
