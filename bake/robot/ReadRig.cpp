@@ -1,11 +1,14 @@
 #include "bake/robot/ReadRig.h"
 
 #include "bake/base/Error.h"
+#include "bake/base/Words.h"
 #include "bake/robot/Character.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace tss {
@@ -265,7 +268,47 @@ private:
     std::vector<bool> isBound_; ///< of each node: some mesh says where it is bound
 };
 
+/// Letters and digits of a name after its last prefix, in lower case.
+std::string plainName(const std::string& name) {
+    std::string plain;
+    for (const char c : name.substr(name.find_last_of(":|") + 1))
+        if (std::isalnum(static_cast<unsigned char>(c))) plain += c;
+    return lowerCase(plain);
+}
+
 } // namespace
+
+void takeAnimations(RigFile& rig, const RigFile& other, const std::string& file) {
+    if (other.animations.empty()) throw InputError(Where{file}, "holds no animation");
+    std::map<std::string, int> exact, plain;
+    for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+        exact.emplace(rig.nodes[n].name, static_cast<int>(n));
+        plain.emplace(plainName(rig.nodes[n].name), static_cast<int>(n));
+    }
+    const double own = rig.notes.metersPerUnit, theirs = other.notes.metersPerUnit;
+    const double scale = own > 0 && theirs > 0 ? theirs / own : 1;
+    std::set<std::string> unknown;
+    std::size_t known = 0;
+    rig.animations = other.animations;
+    for (RigFile::Animation& animation : rig.animations) {
+        for (RigFile::Channel& channel : animation.channels) {
+            const std::string& name = other.nodes[channel.node].name;
+            const auto same = exact.find(name);
+            const auto like = plain.find(plainName(name));
+            channel.node = same != exact.end() ? same->second : like != plain.end() ? like->second : -1;
+            if (channel.node < 0) unknown.insert(name);
+            for (Vec3& place : channel.places) place *= scale;
+        }
+        std::erase_if(animation.channels, [](const RigFile::Channel& channel) { return channel.node < 0; });
+        known += animation.channels.size();
+    }
+    const std::vector<std::string> names(unknown.begin(), unknown.end());
+    if (known == 0)
+        throw InputError(Where{file}, "moves none of the nodes of the character: " + firstOf(names, 5));
+    if (!names.empty())
+        rig.notes.leftOut.push_back("keys of " + counted(names.size(), "node") +
+                                    " that the character does not have: " + firstOf(names, 5));
+}
 
 Robot rigRobot(const RigFile& rig, const std::string& file) {
     if (rig.meshes.empty())

@@ -177,6 +177,8 @@ void make(MakeArguments& arguments, const CLI::App& command, const Console& cons
     if (!arguments.robot.input.empty()) {
         if (command.count("--meters-per-unit") > 0) arguments.robot.metersPerUnit = arguments.metersPerUnit;
         if (!arguments.upAxis.empty()) arguments.robot.upAxis = arguments.upAxis[0];
+        if (isRigName(arguments.robot.input) && isRigName(arguments.motion))
+            std::swap(arguments.robot.animation, arguments.motion);
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
     }
     arguments.pairs = arguments.robot.pairs;
@@ -255,9 +257,11 @@ void addMake(CLI::App& app, Console& console) {
     command->add_option("--rest", arguments->rest,
                         "DOF values at which the joint rests: where a motion starts, and meshes that overlap "
                         "are free (default 0, or the limit next to it). The meshes lie as they do at 0");
-    command->add_option("--motion", arguments->motion,
-                        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
-                        "muscles), then degrees, units of a value, or activations. Else each moves in turn");
+    command->add_option(
+        "--motion", arguments->motion,
+        "a CSV file, the motion that the scene plays: a line of names (time or step, joints, "
+        "muscles), then degrees, units of a value, or activations. Else each moves in turn. Of a "
+        "character of a mesh format also another such file, whose animations it takes");
     command
         ->add_option("--up-axis", arguments->upAxis,
                      "Y or Z (default Z; Y where the files of --a and --b say so, or all are glTF)")

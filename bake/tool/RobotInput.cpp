@@ -206,7 +206,8 @@ namespace {
 
 /// The scene of a rigged character in a mesh file.
 MadeScene readRigScene(const RobotFile& from, const RobotSceneRequest& request) {
-    const RigFile rig = readRigFile(from.input);
+    RigFile rig = readRigFile(from.input);
+    if (!from.animation.empty()) takeAnimations(rig, readRigFile(from.animation), from.animation);
     Robot robot = rigRobot(rig, from.input);
     if (from.metersPerUnit > 0) robot.metersPerUnit = from.metersPerUnit;
     if (from.upAxis != '\0') robot.upAxis = from.upAxis;
@@ -218,6 +219,10 @@ MadeScene readRigScene(const RobotFile& from, const RobotSceneRequest& request) 
         robot.notes.push_back("the file does not say how long its unit is: 1 m is taken; --meters-per-unit");
     if (rig.notes.upAxis == '\0' && from.upAxis == '\0')
         robot.notes.push_back("the file does not say which way is up: Z is taken; --up-axis Y");
+    if (rig.animations.empty())
+        robot.notes.push_back(
+            "the file has no animation that would move its bones; --motion FILE takes those "
+            "of another file");
     moveLinks(robot, from.offsets);
     const FindMesh none = [](const std::string& name) -> std::string { return name; };
     return newScene(robot, request, none);

@@ -7,6 +7,7 @@ namespace tss::tool {
 /// A robot's file, and how it is read.
 struct RobotFile {
     std::string input;                 ///< URDF, MJCF, .usda, or a rigged character of a mesh format
+    std::string animation;             ///< a file whose animations are the character's; empty: its own
     std::vector<std::string> packages; ///< "NAME=DIR"
     std::string srdf;                  ///< a file; empty: none
     std::vector<std::string> offsets;  ///< "LINK=X,Y,Z", see moveLinks()

@@ -172,6 +172,35 @@ TEST_CASE("several animations widen the limits and are played one after the othe
     CHECK(rigApart(rigMoved(made.scene, "Lower", 72), rigBend(-40)) < 1e-6);
 }
 
+TEST_CASE("a character takes the animations of another file, by the names of its nodes and in its own unit") {
+    RigFile rig = rigArm(), other;
+    rig.notes.metersPerUnit = 1;
+    rig.nodes[3].name = "mixamorig:Lower";
+    rig.nodes[2].name = "Upper";
+    other.nodes = {{"Root", -1, rigShift(0, 0, 0)},
+                   {"Tail", 0, rigShift(0, 0, 0)},
+                   {"Armature|lower", 0, rigShift(0, 0, 0)},
+                   {"Upper", 0, rigShift(0, 0, 0)}};
+    RigFile::Channel lifted = rigTurn(3, Vec3::Zero(), 0);
+    lifted.placeTimes = {0, 1};
+    lifted.places = {Vec3(50000, 0, 0), Vec3(50000, 0, 10000)}; // in hundredths of the rig's unit
+    other.animations = {{"Walk", {rigTurn(1, Vec3::Zero(), 10), rigTurn(2, Vec3(0, 0, 20000), -30), lifted}}};
+    other.notes.metersPerUnit = 0.01;
+    takeAnimations(rig, other, "walk.fbx");
+    const RobotScene made = sceneOf(rigRobot(rig, "arm.glb"), {}, noMeshes);
+    CHECK(hasNote(made.notes, "left out: keys of 1 node that the character does not have: Tail"));
+    CHECK(jointCalled(made.scene, "mixamorig_Lower_joint").dofs.size() == 1);
+    const Pose lift(Eigen::Translation3d(0, 0, 1));
+    CHECK(rigApart(rigMoved(made.scene, "Upper", 24), lift) < 1e-6);
+    CHECK(rigApart(rigMoved(made.scene, "mixamorig_Lower", 24), lift * rigBend(-30)) < 1e-6);
+
+    RigFile still = rigArm();
+    CHECK(refusal([&] { takeAnimations(rig, RigFile{}, "none.fbx"); }) == "none.fbx: holds no animation");
+    other.nodes[2].name = other.nodes[3].name = "Wing";
+    CHECK(refusal([&] { takeAnimations(still, other, "bird.fbx"); }) ==
+          "bird.fbx: moves none of the nodes of the character: Tail, Wing");
+}
+
 TEST_CASE("a mesh file in which nothing moves is refused") {
     RigFile rig = rigArm();
     rig.animations.clear();
