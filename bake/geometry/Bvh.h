@@ -59,26 +59,34 @@ inline double squaredDistance(const Bvh::Node& node, const Vec3& p) {
     return (node.lower - p).cwiseMax(p - node.upper).cwiseMax(0.0).squaredNorm();
 }
 
-/// Calls leaf(item) for items in roughly rising distance from p, skipping all whose box is no nearer than the
-/// square root of best2, which leaf lowers as it finds better ones.
-template <class Leaf>
-void visitNearest(const Bvh& bvh, const Vec3& p, double& best2, Leaf&& leaf) {
+/// Calls leaf(item) for items in roughly rising distance, skipping all in nodes that are no nearer than the
+/// square root of best2, which leaf lowers as it finds better ones. distance2(node): how near, squared, what
+/// is in the node of this index can be at most.
+template <class Distance2, class Leaf>
+void visitNearest(const Bvh& bvh, const Distance2& distance2, double& best2, Leaf&& leaf) {
     if (bvh.empty()) return;
     std::array<std::pair<double, std::uint32_t>, 128> stack;
     std::size_t top = 0;
-    stack[top++] = {squaredDistance(bvh.nodes[0], p), 0};
+    stack[top++] = {distance2(0u), 0};
     while (top > 0) {
-        const auto [distance2, index] = stack[--top];
-        if (distance2 >= best2) continue;
+        const auto [least2, index] = stack[--top];
+        if (least2 >= best2) continue;
         const Bvh::Node& node = bvh.nodes[index];
         for (std::uint32_t i = 0; i < node.count; ++i) leaf(bvh.items[node.first + i]);
         if (node.count > 0) continue;
-        std::pair<double, std::uint32_t> near{squaredDistance(bvh.nodes[node.first], p), node.first};
-        std::pair<double, std::uint32_t> far{squaredDistance(bvh.nodes[node.first + 1], p), node.first + 1};
+        std::pair<double, std::uint32_t> near{distance2(node.first), node.first};
+        std::pair<double, std::uint32_t> far{distance2(node.first + 1), node.first + 1};
         if (far.first < near.first) std::swap(near, far);
         if (far.first < best2) stack[top++] = far;
         if (near.first < best2) stack[top++] = near;
     }
+}
+
+/// The same by the distance of their boxes from p.
+template <class Leaf>
+void visitNearest(const Bvh& bvh, const Vec3& p, double& best2, Leaf&& leaf) {
+    visitNearest(
+        bvh, [&](std::uint32_t node) { return squaredDistance(bvh.nodes[node], p); }, best2, leaf);
 }
 
 /// Calls leaf(item) for every item whose box comes within `radius` of p, in the order of the tree.

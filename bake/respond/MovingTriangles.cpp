@@ -69,32 +69,26 @@ double MovingTriangles::halfOf(std::uint32_t triangle, const Vec3& weights, cons
     return against.norm() / 2;
 }
 
-bool MovingTriangles::counts(std::uint32_t node, const Group& group, double distance2, double reach,
-                             bool onlyChanged) const {
+double MovingTriangles::squaredDistanceOf(std::uint32_t node, const Group& group, double reach,
+                                          bool onlyChanged) const {
     const Bounds& bounds = bounds_[node];
-    if (onlyChanged && !bounds.changed) return false;
+    if (onlyChanged && !bounds.changed) return infinity;
+    const double distance2 = squaredDistance(bounds.places, group.places) * (1 - rounding);
     if (distance2 >= reach * reach) {
-        if (group.moves.isEmpty()) return false;
+        if (group.moves.isEmpty()) return infinity;
         const double most = reach + mostApart(bounds.moves, group.moves) / 2 * (1 + rounding);
-        if (!(distance2 < most * most)) return false;
+        if (!(distance2 < most * most)) return infinity;
     }
-    return mostAlong(bounds.normals, group.facings) >= -rounding;
+    return mostAlong(bounds.normals, group.facings) >= -rounding ? distance2 : infinity;
 }
 
 bool MovingTriangles::mayMeet(const Group& group, double reach, bool onlyChanged) const {
-    std::array<std::uint32_t, 128> stack;
-    std::size_t top = 0;
-    if (!tree_.empty()) stack[top++] = 0;
-    while (top > 0) {
-        const std::uint32_t index = stack[--top];
-        const double distance2 = squaredDistance(bounds_[index].places, group.places) * (1 - rounding);
-        if (!counts(index, group, distance2, reach, onlyChanged)) continue;
-        const Bvh::Node& node = tree_.nodes[index];
-        if (node.count > 0) return true;
-        stack[top++] = node.first;
-        stack[top++] = node.first + 1;
-    }
-    return false;
+    double best2 = infinity;
+    const auto least2 = [&](std::uint32_t node) {
+        return squaredDistanceOf(node, group, reach, onlyChanged);
+    };
+    visitNearest(tree_, least2, best2, [&](std::uint32_t) { best2 = -1; });
+    return best2 < 0;
 }
 
 MovingTriangles::Met MovingTriangles::nearest(const Vec3& x, const Vec3& facing, double reach,
@@ -105,8 +99,7 @@ MovingTriangles::Met MovingTriangles::nearest(const Vec3& x, const Vec3& facing,
     const auto look = [&](std::uint32_t triangle) {
         if (onlyChanged && !hasChanged(triangle)) return;
         if (!any && !(now_.areaNormal(triangle).dot(facing) > 0)) return;
-        const Vec3 &a = now_.corner(triangle, 0), &b = now_.corner(triangle, 1),
-                   &c = now_.corner(triangle, 2);
+        const auto [a, b, c] = now_.corners(triangle);
         const Vec3 w = nearestOnTriangle(x, a, b, c), p = w[0] * a + w[1] * b + w[2] * c;
         const double distance2 = (p - x).squaredNorm();
         if (!(distance2 < best2)) return;
@@ -116,26 +109,10 @@ MovingTriangles::Met MovingTriangles::nearest(const Vec3& x, const Vec3& facing,
         best = {NearestPoint{static_cast<int>(triangle), w, p, distance}, half};
     };
     const Group point{Box(x), Box(facing), move ? Box(*move) : Box()};
-    const auto least2 = [&](std::uint32_t i) {
-        const double distance2 = squaredDistance(bounds_[i].places, point.places) * (1 - rounding);
-        return distance2 < best2 && counts(i, point, distance2, reach, onlyChanged) ? distance2 : infinity;
+    const auto least2 = [&](std::uint32_t node) {
+        return squaredDistanceOf(node, point, reach, onlyChanged);
     };
-    if (tree_.empty()) return {};
-    std::array<std::pair<double, std::uint32_t>, 128> stack;
-    std::size_t top = 0;
-    stack[top++] = {least2(0), 0};
-    while (top > 0) {
-        const auto [distance2, index] = stack[--top];
-        if (!(distance2 < best2)) continue;
-        const Bvh::Node& node = tree_.nodes[index];
-        for (std::uint32_t k = 0; k < node.count; ++k) look(tree_.items[node.first + k]);
-        if (node.count > 0) continue;
-        std::pair<double, std::uint32_t> near{least2(node.first), node.first},
-            far{least2(node.first + 1), node.first + 1};
-        if (far.first < near.first) std::swap(near, far);
-        for (const auto& child : {far, near})
-            if (child.first < best2) stack[top++] = child;
-    }
+    visitNearest(tree_, least2, best2, look);
     return best;
 }
 

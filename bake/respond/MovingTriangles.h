@@ -46,9 +46,8 @@ private:
     };
     Bounds boundsOf(std::uint32_t triangle) const;
     bool hasChanged(std::uint32_t triangle) const;
-    /// Whether nearest() may find something in a node at this squared distance from the group.
-    bool counts(std::uint32_t node, const Group& group, double distance2, double reach,
-                bool onlyChanged) const;
+    /// From a group to what nearest() may find in a node; infinite where that is nothing.
+    double squaredDistanceOf(std::uint32_t node, const Group& group, double reach, bool onlyChanged) const;
     double halfOf(std::uint32_t triangle, const Vec3& weights, const Vec3& move) const;
 
     TriangleMesh now_;
