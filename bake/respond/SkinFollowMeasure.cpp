@@ -1,9 +1,8 @@
 #include "bake/respond/SkinFollowMeasure.h"
 
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/respond/SkinScene.h"
-
-#include <algorithm>
 
 namespace tss {
 namespace {
@@ -14,10 +13,8 @@ constexpr double near = 1 / 30.0, far = 1 / 9.0;
 /// Edges shorter than this share of the diagonal say nothing about the skin: scans have slivers.
 constexpr double shortestEdge = 1e-5;
 
-double percentile(std::vector<double>& values, double share) {
-    const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + place, values.end());
-    return values[static_cast<std::size_t>(place)];
+double percentile(const std::vector<double>& values, double share) {
+    return valueAt(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
 } // namespace
@@ -39,49 +36,47 @@ SkinFollowMeasure::SkinFollowMeasure(const TriangleMesh& skin,
                                      const SkinRig& rig)
     : skin_(skin), rig_(rig), alone_(bodies.size()) {
     Eigen::AlignedBox3d box;
-    const auto isBone = [&](std::size_t m) {
-        return bodies[m]->rigid() && !bodies[m]->muscle().surface.empty();
-    };
-    for (std::size_t m = 0; m < bodies.size(); ++m)
-        if (isBone(m)) box.extend(bounds(bodies[m]->muscle().surface));
-    if (box.isEmpty()) return;
-    size_ = box.diagonal().norm();
-    std::vector<std::vector<double>> distances(bodies.size());
+    std::vector<std::pair<int, ClosestPointQuery>> bones;
     for (std::size_t m = 0; m < bodies.size(); ++m) {
-        if (!isBone(m)) continue;
-        const ClosestPointQuery locator(bodies[m]->muscle().surface);
-        distances[m].assign(skin.vertices.size(), far * size_);
-        parallelFor(skin.vertices.size(), [&](std::size_t v) {
-            const NearestPoint point = locator.nearest(skin.vertices[v], far * size_);
-            if (point.triangle >= 0) distances[m][v] = point.distance;
-        });
+        const TriangleMesh& surface = bodies[m]->muscle().surface;
+        if (!bodies[m]->rigid() || surface.empty()) continue;
+        box.extend(bounds(surface));
+        bones.emplace_back(static_cast<int>(m), surface);
     }
-    for (std::size_t m = 0; m < bodies.size(); ++m)
-        for (std::uint32_t v = 0; v < distances[m].size(); ++v) {
-            bool alone = distances[m][v] < near * size_;
-            for (std::size_t other = 0; other < bodies.size(); ++other)
-                alone =
-                    alone && (other == m || distances[other].empty() || distances[other][v] >= far * size_);
-            if (alone) alone_[m].push_back(v);
+    if (bones.empty()) return;
+    size_ = box.diagonal().norm();
+    std::vector<int> on(skin.vertices.size(), -1); // the bone that a vertex lies on alone
+    parallelFor(on.size(), [&](std::size_t v) {
+        int around = 0;
+        for (const auto& [bone, locator] : bones) {
+            const NearestPoint point = locator.nearest(skin.vertices[v], far * size_);
+            around += point.triangle >= 0;
+            if (point.triangle >= 0 && point.distance < near * size_) on[v] = bone;
         }
+        if (around > 1) on[v] = -1;
+    });
+    for (std::uint32_t v = 0; v < on.size(); ++v)
+        if (on[v] >= 0) alone_[on[v]].push_back(v);
 }
 
 SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<const Pose> poses) const {
+    std::vector<Pose> all(poses.begin(), poses.end());
+    all.resize(rig_.bodies.size(), Pose::Identity());
     std::vector<Vec3> now = skin_.vertices;
     for (std::size_t k = 0; k < positions.size(); ++k) now[rig_.vertices[k]] = positions[k];
     SkinFollowing result;
     result.bones.resize(alone_.size());
     for (std::size_t m = 0; m < alone_.size(); ++m) {
         if (alone_[m].empty()) continue;
+        SkinFollowing::OnBone& bone = result.bones[m];
         std::vector<double> off;
         for (const std::uint32_t v : alone_[m]) {
-            const Vec3 wanted = m < poses.size() ? poses[m] * skin_.vertices[v] : skin_.vertices[v];
-            off.push_back(1000 * (now[v] - wanted).norm() / size_);
-            result.bones[m].mean += off.back();
+            off.push_back(1000 * (now[v] - all[m] * skin_.vertices[v]).norm() / size_);
+            bone.mean += off.back();
         }
-        result.bones[m].vertices = off.size();
-        result.bones[m].mean /= static_cast<double>(off.size());
-        result.bones[m].most = percentile(off, 0.95);
+        bone.vertices = off.size();
+        bone.mean /= static_cast<double>(off.size());
+        bone.most = percentile(off, 0.95);
     }
     std::vector<double> edges;
     const double least = shortestEdge * diagonal(skin_);
@@ -95,8 +90,6 @@ SkinFollowing SkinFollowMeasure::at(std::span<const Vec3> positions, std::span<c
         result.shortest = percentile(edges, 0.01);
         result.longest = percentile(edges, 0.99);
     }
-    std::vector<Pose> all(poses.begin(), poses.end());
-    all.resize(rig_.bodies.size(), Pose::Identity());
     SkinScene scene;
     placeBodies(rig_, std::vector<double>(all.size(), 0), all, {}, scene);
     for (const Tri& t : rig_.triangles) {

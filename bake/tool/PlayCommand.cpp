@@ -8,7 +8,7 @@
 #include "bake/pipeline/BakeOptions.h"
 #include "bake/play/Player.h"
 #include "bake/respond/SkinCosts.h"
-#include "bake/respond/SkinFollowing.h"
+#include "bake/respond/SkinFollowMeasure.h"
 #include "bake/scene/SceneFile.h"
 #include "bake/tool/Command.h"
 #include "bake/tool/CsvTable.h"
