@@ -22,54 +22,42 @@ constexpr double columnCut = 3e-3;
 constexpr std::size_t nodesAPatch =
     48; ///< columns that are solved with one factorisation, on one patch of the skin
 
-using Weights = std::vector<std::vector<std::pair<std::uint32_t, double>>>; ///< #V: nodes and weights
-
-/// Chooses nodes at least `spacing` apart along the skin, and computes each vertex's weights of the nodes
-/// around it, which fall off smoothly. near: #V, vertices that need nodes. at: receives the nodes' vertices.
-Weights chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, double spacing,
-                    std::vector<std::uint32_t>& at) {
-    Weights weights(graph.vertices());
-    std::vector<double> distance(graph.vertices(), infinity);
+/// Chooses nodes at least `spacing` apart along the skin. Returns, nodes by vertices, the weights in each
+/// vertex of the nodes around it, which fall off smoothly. near: #V, vertices that need nodes. at: receives
+/// the nodes' vertices.
+SparseMatrix chooseNodes(const SkinGraph& graph, const std::vector<bool>& near, double spacing,
+                         std::vector<std::uint32_t>& at) {
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<double> distance(graph.vertices(), infinity), sums(graph.vertices(), 0);
     std::vector<bool> covered(graph.vertices(), false);
     for (std::uint32_t v = 0; v < graph.vertices(); ++v) {
         if (covered[v] || !near[v]) continue;
-        const auto index = static_cast<std::uint32_t>(at.size());
-        at.push_back(v);
         for (const std::uint32_t w : lowerDistances(graph, std::span(&v, 1), nodeReach * spacing, distance)) {
-            const double t = distance[w] / (nodeReach * spacing);
+            const double t = distance[w] / (nodeReach * spacing), weight = (1 - t * t) * (1 - t * t);
             if (distance[w] < spacing) covered[w] = true;
-            if (near[w] && t < 1) weights[w].emplace_back(index, (1 - t * t) * (1 - t * t));
             distance[w] = infinity;
+            if (!near[w] || !(t < 1)) continue;
+            entries.emplace_back(static_cast<int>(at.size()), static_cast<int>(w), weight);
+            sums[w] += weight;
         }
+        at.push_back(v);
     }
-    for (auto& list : weights) {
-        double sum = 0;
-        for (const auto& entry : list) sum += entry.second;
-        for (auto& entry : list) entry.second /= sum;
-    }
+    for (auto& e : entries) e = {e.row(), e.col(), e.value() / sums[static_cast<std::size_t>(e.col())]};
+    SparseMatrix weights(static_cast<Eigen::Index>(at.size()), static_cast<Eigen::Index>(graph.vertices()));
+    weights.setFromTriplets(entries.begin(), entries.end());
     return weights;
 }
 
-SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const Weights& weights,
-                     const std::vector<double>& firmness, std::size_t nodes, double length, double stretch,
-                     double bend) {
-    const auto rows = static_cast<Eigen::Index>(graph.vertices());
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t v = 0; v < weights.size(); ++v)
-        for (const auto& [node, weight] : weights[v])
-            entries.emplace_back(static_cast<int>(v), static_cast<int>(node), weight);
-    SparseMatrix spread(rows, static_cast<Eigen::Index>(nodes));
-    spread.setFromTriplets(entries.begin(), entries.end());
-    const SparseMatrix laplacian = skinLaplacian(skin);
-    Eigen::VectorXd mass(rows);
-    for (Eigen::Index v = 0; v < rows; ++v) mass[v] = graph.area[v];
-    const SparseMatrix bent = laplacian * spread;
-    const SparseMatrix turned = spread.transpose();
-    SparseMatrix sheet = stretch * (turned * bent);
+/// The sheet's matrix B, on nodes.
+SparseMatrix sheetOn(const TriangleMesh& skin, const SkinGraph& graph, const SparseMatrix& weights,
+                     const std::vector<double>& firmness, double length, double stretch, double bend) {
+    Eigen::VectorXd mass = Eigen::VectorXd::Map(graph.area.data(), weights.cols());
+    const SparseMatrix spread = weights.transpose(), bent = skinLaplacian(skin) * spread;
+    SparseMatrix sheet = stretch * (weights * bent);
     sheet +=
         bend * length * length * SparseMatrix(bent.transpose() * mass.cwiseInverse().asDiagonal() * bent);
-    for (Eigen::Index v = 0; v < rows; ++v) mass[v] *= firmness[v];
-    sheet += SparseMatrix(turned * mass.asDiagonal() * spread) / (length * length);
+    mass.array() *= Eigen::ArrayXd::Map(firmness.data(), mass.size());
+    sheet += SparseMatrix(weights * mass.asDiagonal() * spread) / (length * length);
     return sheet;
 }
 
@@ -110,18 +98,14 @@ void solvePatch(const SparseMatrix& sheet, const std::vector<Vec3>& places,
 void symmetrise(Columns& columns) {
     const auto entryOf = [&](std::uint32_t column, std::uint32_t node) -> float* {
         auto& list = columns[column];
-        const auto found = std::lower_bound(list.begin(), list.end(), node,
-                                            [](const auto& e, std::uint32_t n) { return e.first < n; });
+        const auto found = std::ranges::lower_bound(list, node, {}, [](const auto& e) { return e.first; });
         return found == list.end() || found->first != node ? nullptr : &found->second;
     };
     for (std::uint32_t n = 0; n < columns.size(); ++n)
         for (auto& [other, value] : columns[n]) {
             if (other == n || columns[other].empty()) continue;
             float* const back = entryOf(other, n);
-            if (back == nullptr)
-                value = 0;
-            else
-                value = *back = std::min(value, *back);
+            value = back == nullptr ? 0 : * back = std::min(value, *back);
         }
     for (auto& column : columns) std::erase_if(column, [](const auto& entry) { return entry.second == 0; });
 }
@@ -161,23 +145,25 @@ SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
     std::vector<bool> near;
     for (const double d : distance) near.push_back(std::isfinite(d));
     std::vector<std::uint32_t> at;
-    const Weights weights = chooseNodes(graph, near, nodeSpacing * length, at);
+    const SparseMatrix weights = chooseNodes(graph, near, nodeSpacing * length, at);
+    using Entries = SparseMatrix::InnerIterator;
     foundation.nodes = at.size();
     std::vector<bool> needed(at.size(), false);
     for (const std::uint32_t v : sources)
-        for (const auto& entry : weights[v]) needed[entry.first] = true;
+        for (Entries it(weights, v); it; ++it) needed[it.row()] = true;
     std::vector<Vec3> places;
     for (const std::uint32_t v : at) places.push_back(skin.vertices[v]);
-    const SparseMatrix sheet = sheetOn(skin, graph, weights, firmness, at.size(), length,
-                                       1 / (1 + stretchCompliance), 1 / (1 + bendCompliance));
+    const SparseMatrix sheet = sheetOn(skin, graph, weights, firmness, length, 1 / (1 + stretchCompliance),
+                                       1 / (1 + bendCompliance));
     const Columns columns = solveColumns(sheet, places, needed, columnReach * length);
 
     float peak = 0;
     for (const auto& column : columns)
         for (const auto& entry : column) peak = std::max(peak, entry.second);
-    for (const auto& list : weights) {
-        for (const auto& [node, weight] : list)
-            foundation.weights.push_back({node, static_cast<float>(weight)});
+    for (Eigen::Index v = 0; v < weights.cols(); ++v) {
+        for (Entries it(weights, v); it; ++it)
+            foundation.weights.push_back(
+                {static_cast<std::uint32_t>(it.row()), static_cast<float>(it.value())});
         foundation.weights.endList();
     }
     for (const auto& column : columns) {
