@@ -1,11 +1,9 @@
-#include "bake/respond/SkinClearance.h"
+#include "bake/respond/SkinContact.h"
 
 #include <algorithm>
 
 namespace tss {
 namespace {
-
-using Vec3f = Eigen::Vector3f;
 
 /// Share of a gap over which a vertex may come nearer to the skin before they are queried: beside the anchor
 /// skin that is stretched may have come the rest of the way.
@@ -19,7 +17,7 @@ template <class Until>
 bool eachOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Until& until) {
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const auto toBody = [&](const Move& x) -> Move {
-        const Vec3f y = placed.toBody(x.head<3>());
+        const Eigen::Vector3f y = placed.toBody(x.head<3>());
         return {y[0], y[1], y[2], 0};
     };
     const Move* skin = scene.skin.data();
@@ -46,8 +44,13 @@ bool eachOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, 
 
 } // namespace
 
-Vec3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    Vec3f first = Vec3f::Zero();
+Eigen::Vector3f vertexPlace(const SkinScene& scene, const SkinRow& row) {
+    if (row.kind == SkinContactKind::SkinOnSkin) return scene.skin[row.vertex].head<3>();
+    return scene.bodies[row.body].toSkin(scene.surface[row.vertex].head<3>());
+}
+
+Eigen::Vector3f anchorOffset(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
+    Eigen::Vector3f first = Eigen::Vector3f::Zero();
     eachOffset(rig, scene, row, [&](std::uint32_t, const Move& offset) {
         first = offset.head<3>();
         return true;
@@ -60,44 +63,28 @@ std::size_t clearancesAtRest(const SkinRig& rig, const SkinRow& row) {
     return row.clearance + (onSkin ? 0 : rig.bodies[row.body].restNode * (row.last - row.first));
 }
 
-void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, SkinClearance* starts) {
+void measureOffsets(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, Move* starts) {
     eachOffset(rig, scene, row, [&](std::uint32_t k, const Move& offset) {
-        starts[k].offsetAndGap.head<3>() = offset.head<3>();
+        starts[k].head<3>() = offset.head<3>();
         return false;
     });
-}
-
-Vec3f vertexPlace(const SkinScene& scene, const SkinRow& row) {
-    if (row.kind == SkinContactKind::SkinOnSkin) return scene.skin[row.vertex].head<3>();
-    return scene.bodies[row.body].toSkin(scene.surface[row.vertex].head<3>());
-}
-
-float heightOverStarts(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    const Vec3f x = vertexPlace(scene, row);
-    float least = std::numeric_limits<float>::max();
-    for (std::uint32_t k = row.first; k < row.last; ++k) {
-        const Tri& t = rig.triangles[rig.starts[k]];
-        const auto edge = [&](int c) -> Vec3f { return (scene.skin[t[c]] - scene.skin[t[0]]).head<3>(); };
-        const Vec3f normal = edge(1).cross(edge(2)).normalized();
-        least = std::min(least, std::abs(normal.dot(x - scene.skin[t[0]].head<3>())));
-    }
-    return least;
 }
 
 bool mayTouch(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
     const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
     const std::uint32_t starts = row.last - row.first;
     const TrackPlace& place = scene.bodies[row.body].at;
-    const SkinClearance* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : place.node * starts);
-    float free = row.kind == SkinContactKind::SkinOnBody ? at->gap() : skinShare * at->gap();
+    const Move* at = rig.clearances.data() + row.clearance + (onSkin ? 0 : place.node * starts);
+    const float gap = at[0][3];
+    float free = row.kind == SkinContactKind::SkinOnBody ? gap : skinShare * gap;
     // At rest no constraint is violated, so that a small motion may be ignored; a muscle's activation alone
     // may violate one.
     if (onSkin || rig.bodies[row.body].bone()) free = std::max(free, unseen);
     if (!(free > 0)) return true;
     const float t = onSkin ? 0 : static_cast<float>(place.t);
     return eachOffset(rig, scene, row, [&](std::uint32_t k, const Move& offset) {
-        Move expected = at[k].offsetAndGap;
-        if (t != 0) expected += t * (at[starts + k].offsetAndGap - expected);
+        Move expected = at[k];
+        if (t != 0) expected += t * (at[starts + k] - expected);
         const Move change = offset - expected;
         return change[0] * change[0] + change[1] * change[1] + change[2] * change[2] >= free * free;
     });

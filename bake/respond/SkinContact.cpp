@@ -1,6 +1,5 @@
 #include "bake/respond/SkinContact.h"
 
-#include "bake/respond/SkinClearance.h"
 #include "bake/respond/SkinWalk.h"
 
 #include <algorithm>
@@ -47,20 +46,17 @@ Vec3f pushDirection(const Vec3f& smooth, const Vec3f& away, float side, float ra
     return length > 0 ? Vec3f(blend / length) : smooth;
 }
 
-Vec3f smoothNormal(const SurfacePoint& at, const Tri& corners, const auto& normal) {
+/// Of what the corners of a triangle have, what a point of it has.
+Vec3f between(const SurfacePoint& at, const Tri& corners, const auto& of) {
     Vec3f sum = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k) sum += at.weights[k] * normal(corners[k]);
-    const float length = sum.norm();
-    return length > 0 ? Vec3f(sum / length) : sum;
+    for (int k = 0; k < 3; ++k) sum += at.weights[k] * of(corners[k]);
+    return sum;
 }
 
-/// The side of a surface that a point is on, given the offset `away` from its nearest point: by the
-/// triangle's own normal where that point is inside the triangle, since smooth normals are wrong near sharp
-/// edges, and by the smooth normal on edges and corners. -1 or 1.
-float sideOf(const SurfacePoint& at, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& smooth,
-             const Vec3f& away) {
-    const Vec3f normal = at.weights.minCoeff() > 0 ? Vec3f((b - a).cross(c - a)) : smooth;
-    return normal.dot(away) < 0 ? -1.0f : 1.0f;
+Vec3f smoothNormal(const SurfacePoint& at, const Tri& corners, const auto& normal) {
+    const Vec3f sum = between(at, corners, normal);
+    const float length = sum.norm();
+    return length > 0 ? Vec3f(sum / length) : sum;
 }
 
 /// Fills normal, distance, gap and level of a plane whose vertices and weights are set. away: offset from the
@@ -80,11 +76,6 @@ void fillPlane(const SkinRig& rig, const SkinScene& scene, const Vec3f& smooth, 
     plane.found = trust > 0;
 }
 
-SurfacePoint toPoint(const NearestPoint& near) {
-    return {near.triangle, near.weights.cast<float>(), near.point.cast<float>(),
-            static_cast<float>(near.distance * near.distance)};
-}
-
 /// Trust in a contact of this depth, given the greatest depth that the motion since rest and the overlap at
 /// rest explain: what is deeper was not entered through this side of the surface. 1 up to `most`, 0 at twice
 /// that.
@@ -94,7 +85,7 @@ float entryTrust(float depth, float most) {
 
 /// How the offset between the two sides of a row has changed since rest.
 Vec3f motionSinceRest(const SkinRig& rig, const SkinScene& scene, const SkinRow& row) {
-    return anchorOffset(rig, scene, row) - rig.clearances[clearancesAtRest(rig, row)].offsetAndGap.head<3>();
+    return anchorOffset(rig, scene, row) - rig.clearances[clearancesAtRest(rig, row)].head<3>();
 }
 
 /// How far a point inside of a muscle can be from a point of its surface that is the nearest: the radius of
@@ -105,56 +96,57 @@ float roomAt(const SkinBody& body, const SurfacePoint& at) {
     return room;
 }
 
-/// The nearest point of those triangles of a bone that face either way.
-SurfacePoint nearestOf(const SkinBody& bone, const Vec3f& x, float range, const Vec3f& one,
-                       const Vec3f& other, int first) {
+/// The point of a bone that skin is held at where it has gone into the bone: the nearest on those triangles
+/// that face as the vertex does or as what it faced at rest. motion: of the vertex since rest; most: how deep
+/// it can be.
+SurfacePoint enteredBone(const SkinBody& bone, const SkinRow& row, int start, const Vec3f& x,
+                         const Vec3f& motion, const Vec3f& own, float most) {
     const Vec3 place = x.cast<double>();
-    const NearestPoint best =
-        bone.locator->nearestFacing(place, static_cast<double>(range), one.cast<double>(), first);
-    const NearestPoint second = bone.locator->nearestFacing(
-        place, best.triangle < 0 ? static_cast<double>(range) : best.distance, other.cast<double>());
-    return toPoint(second.triangle < 0 ? best : second);
+    const int first = row.insideAtRest ? start : bone.locator->entered((x - motion).cast<double>(), place);
+    if (first < 0) return {};
+    const double range = 2 * static_cast<double>(most); // beyond this depth entryTrust() is 0
+    NearestPoint near = bone.locator->nearestFacing(place, range, own.cast<double>(), first);
+    const NearestPoint other = bone.locator->nearestFacing(place, near.triangle < 0 ? range : near.distance,
+                                                           row.facing.cast<double>());
+    if (other.triangle >= 0) near = other;
+    return {near.triangle, near.weights.cast<float>(), near.point.cast<float>(),
+            static_cast<float>(near.distance * near.distance)};
+}
+
+/// The side of a muscle's surface that a point is on, given the offset `away` from its nearest point: by the
+/// triangle's own normal where that point is inside the triangle, since smooth normals are wrong near sharp
+/// edges, and by the smooth normal on edges and corners. -1 or 1.
+float sideOf(const SurfacePoint& hit, const Tri& t, const auto& at, const Vec3f& smooth, const Vec3f& away) {
+    const bool within = hit.weights.minCoeff() > 0;
+    const Vec3f normal = within ? Vec3f((at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]))) : smooth;
+    return normal.dot(away) < 0 ? -1.0f : 1.0f;
 }
 
 SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
     SkinPlane plane;
-    plane.vertices = 1;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
+    plane.add(row.vertex, 1);
     const SkinBody& body = rig.bodies[row.body];
     const SkinScene::Placed& placed = scene.bodies[row.body];
     const Vec3f x = placed.toBody(scene.skin[row.vertex].head<3>());
-    Vec3f own = scene.normalOf(row.vertex);
-    if (placed.moved) own = placed.turn.transpose() * own;
+    Vec3f own = placed.turnedBack(scene.normalOf(row.vertex));
     if (row.fromOutside) own = -own;
-    SurfacePoint hit;
     const Vec3f motion = motionSinceRest(rig, scene, row);
-    if (body.bone()) {
-        int first = rig.starts[row.first];
-        if (!row.insideAtRest) first = body.locator->entered((x - motion).cast<double>(), x.cast<double>());
-        if (first < 0) return plane;
-        const float range = 2 * (motion.norm() - row.offset); // beyond this depth entryTrust() is 0
-        hit = nearestOf(body, x, range, own, row.facing, first);
-    } else {
-        const Move* surface = scene.surface.data() + body.first;
-        const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
-        hit = walkDownhill(x, rig.starts[row.first], body.triangles, body.across, at, walkSteps);
-    }
+    float most = motion.norm() - row.offset;
+    const Move *surface = scene.surface.data() + body.first, *normals = scene.normals.data() + body.first;
+    const auto at = [&](int v) -> Vec3f { return surface[v].head<3>(); };
+    const int start = rig.starts[row.first];
+    const SurfacePoint hit = body.bone() ? enteredBone(body, row, start, x, motion, own, most)
+                                         : walkDownhill(x, start, body.triangles, body.across, at, walkSteps);
     if (hit.triangle < 0) return plane;
-    const Move* normals = scene.normals.data() + body.first;
-    Vec3f smooth =
-        smoothNormal(hit, body.triangles[hit.triangle], [&](int v) { return normals[v].head<3>(); });
-    // nearestOf() has sought what faces the skin; of a muscle the side faced at rest counts too.
+    const Tri& t = body.triangles[hit.triangle];
+    Vec3f smooth = smoothNormal(hit, t, [&](int v) { return normals[v].head<3>(); });
+    // A bone's triangles are those that face the skin; of a muscle the side faced at rest counts too.
     float trust = body.bone() ? 1.0f : trustOf(std::max(smooth.dot(own), smooth.dot(row.facing)));
     const Vec3f away = x - hit.point;
-    const Tri& t = body.triangles[hit.triangle];
-    const Move* at = scene.surface.data() + body.first;
+    const bool inside = smooth.dot(away) < 0;
     // Inside a bone skin is pushed along the smooth normal only, not sideways out of a thin edge.
-    float side = smooth.dot(away) < 0 ? 0.0f : 1.0f;
-    if (!body.bone())
-        side = sideOf(hit, at[t[0]].head<3>(), at[t[1]].head<3>(), at[t[2]].head<3>(), smooth, away);
-    if (side < 1 || smooth.dot(away) < 0) {
-        float most = motion.norm() - row.offset;
+    float side = body.bone() ? (inside ? 0.0f : 1.0f) : sideOf(hit, t, at, smooth, away);
+    if (side < 1 || inside) {
         if (!body.bone()) most = std::min(most, std::max(roomAt(body, hit), -row.offset));
         trust *= entryTrust(away.norm(), most);
     }
@@ -163,8 +155,7 @@ SkinPlane skinOnBody(const SkinRig& rig, const SkinScene& scene, const SkinRow& 
         smooth = -smooth;
         side = -side;
     }
-    fillPlane(rig, scene, placed.moved ? placed.turn * smooth : smooth,
-              placed.moved ? placed.turn * away : away, side, trust, offset, plane);
+    fillPlane(rig, scene, placed.turned(smooth), placed.turned(away), side, trust, offset, plane);
     return plane;
 }
 
@@ -182,116 +173,84 @@ int nearestStart(const SkinRig& rig, const SkinScene& scene, const SkinRow& row,
     return nearest;
 }
 
+/// The point of the skin that a vertex at x meets.
 SurfacePoint walkSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const Vec3f& x) {
     const auto at = [&](int v) -> Vec3f { return scene.skin[v].head<3>(); };
     return walkDownhill(x, nearestStart(rig, scene, row, x), rig.triangles, rig.across, at, walkSteps);
 }
 
-Vec3f placeAtRest(const SkinRig& rig, const SurfacePoint& hit) {
-    Vec3f place = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k)
-        place += hit.weights[k] * rig.places[rig.triangles[hit.triangle][k]].head<3>();
-    return place;
-}
-
 /// Signed height of the skin at rest above a vertex, at the point of the skin that the vertex touches now;
-/// fades to 0 where that point lay to the side. place, normal: of the vertex at rest.
-float heightAtRest(const SkinRig& rig, const Vec3f& place, const Vec3f& normal, const SurfacePoint& hit) {
-    const Tri& corners = rig.triangles[hit.triangle];
-    const Vec3f away = placeAtRest(rig, hit) - place;
-    const Vec3f smooth = smoothNormal(hit, corners, [&](int c) { return rig.placeNormals[c].head<3>(); });
+/// fades to 0 where that point lay to the side. normal: of the vertex at rest; away: from it to the point.
+float heightAtRest(const SkinRig& rig, const SurfacePoint& hit, const Vec3f& normal, const Vec3f& away) {
+    const Vec3f smooth =
+        smoothNormal(hit, rig.triangles[hit.triangle], [&](int c) { return rig.placeNormals[c].head<3>(); });
     const float above = (smooth + normal).normalized().dot(away);
     return above == 0 ? 0 : above * smoothStep(2 * std::abs(above) / away.norm() - 0.5f);
 }
 
-SkinPlane bodyOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
-    SkinPlane plane;
-    const SkinScene::Placed& placed = scene.bodies[row.body];
-    const Vec3f x = vertexPlace(scene, row);
-    Vec3f own = scene.normals[row.vertex].head<3>();
-    if (placed.moved) own = placed.turn * own;
-    const SurfacePoint hit = walkSkin(rig, scene, row, x);
-    const Tri& corners = rig.triangles[hit.triangle];
-    plane.vertices = 3;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k] = hit.weights[k];
-    }
-    const Vec3f smooth = smoothNormal(hit, corners, [&](int v) { return scene.normalOf(v); });
-    float facing = smooth.dot(own);
-    if (row.insideAtRest) {
-        Vec3f anchor = Vec3f::Zero();
-        for (int k = 0; k < 3; ++k)
-            anchor += scene.normalOf(static_cast<std::size_t>(rig.triangles[rig.starts[row.first]][k]));
-        facing = std::max(facing, smooth.dot(anchor.normalized()));
-    }
-    float trust = trustOf(facing);
-    const Vec3f away = hit.point - x, both = row.insideAtRest ? smooth : (smooth + own).normalized();
-    if (both.dot(away) < 0) {
-        float overlap = row.offset;
-        if (const SkinBody& body = rig.bodies[row.body]; body.bone()) {
-            // Bones such as teeth may stick out of the skin at rest, and may again.
-            const std::uint32_t v = row.vertex - body.first;
-            overlap = offset =
-                std::min(heightAtRest(rig, body.rest[v].head<3>(), body.normals[v].head<3>(), hit), 0.0f);
-        }
-        trust *= entryTrust(away.norm(), motionSinceRest(rig, scene, row).norm() - overlap);
-    }
-    if (!(trust > 0)) return plane;
-    fillPlane(rig, scene, both, away,
-              both.dot(away) >= 0 ? 1.0f
-              : row.insideAtRest  ? -1.0f
-                                  : 0.0f,
-              trust, offset, plane);
-    return plane;
-}
-
-SkinPlane skinOnSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
-    SkinPlane plane;
-    const Vec3f x = vertexPlace(scene, row);
-    const SurfacePoint hit = walkSkin(rig, scene, row, x);
-    const Tri& corners = rig.triangles[hit.triangle];
-    plane.vertices = 1;
-    plane.vertex[0] = row.vertex;
-    plane.weight[0] = 1;
-    // Around the end of a fold the walk may arrive at the vertex itself.
-    if ((corners.array() == static_cast<int>(row.vertex)).any()) return plane;
-    plane.vertices = 4;
-    for (int k = 0; k < 3; ++k) {
-        plane.vertex[k + 1] = static_cast<std::uint32_t>(corners[k]);
-        plane.weight[k + 1] = -hit.weights[k];
-    }
-    const Vec3f smooth = smoothNormal(hit, corners, [&](int v) { return scene.normalOf(v); });
-    const Vec3f own = scene.normalOf(row.vertex);
-    float trust = trustOf(-smooth.dot(own));
-    const Vec3f away = x - hit.point, both = (smooth - own).normalized();
-    if (both.dot(away) < 0) {
-        trust *= entryTrust(away.norm(), motionSinceRest(rig, scene, row).norm() - row.offset);
+/// What is left of the trust in a contact of a vertex that is this deep behind the skin. offset: of a bone's
+/// vertex it is set to what that keeps.
+float trustBehind(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, const SurfacePoint& hit,
+                  float trust, float depth, float& offset) {
+    const float motion = motionSinceRest(rig, scene, row).norm();
+    const Vec3f place =
+        between(hit, rig.triangles[hit.triangle], [&](int c) { return rig.places[c].head<3>(); });
+    if (row.kind == SkinContactKind::SkinOnSkin) {
         // A part of the skin behind the vertex at rest may be the back of its own layer, and no obstacle:
         // unless it was much farther away.
-        const Vec3f place = rig.places[row.vertex].head<3>(),
-                    outward = rig.placeNormals[row.vertex].head<3>();
-        const float apart = (place - placeAtRest(rig, hit)).norm();
-        trust *= std::max(entryTrust(heightAtRest(rig, place, -outward, hit), enterDepth * rig.radius),
-                          entryTrust(away.norm(), ownLayer * apart));
+        const Vec3f away = place - rig.places[row.vertex].head<3>();
+        const float height = heightAtRest(rig, hit, -rig.placeNormals[row.vertex].head<3>(), away);
+        trust *= entryTrust(depth, motion - row.offset);
+        return trust * std::max(entryTrust(height, enterDepth * rig.radius),
+                                entryTrust(depth, ownLayer * away.norm()));
     }
+    const SkinBody& body = rig.bodies[row.body];
+    if (!body.bone()) return trust * entryTrust(depth, motion - row.offset);
+    // Bones such as teeth may stick out of the skin at rest, and may again.
+    const std::uint32_t v = row.vertex - body.first;
+    offset =
+        std::min(heightAtRest(rig, hit, body.normals[v].head<3>(), place - body.rest[v].head<3>()), 0.0f);
+    return trust * entryTrust(depth, motion - offset);
+}
+
+/// A vertex of a body or of the skin against another part of the skin. The vertex of a body is below.
+SkinPlane againstSkin(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
+    SkinPlane plane;
+    const bool onSkin = row.kind == SkinContactKind::SkinOnSkin;
+    const Vec3f x = vertexPlace(scene, row);
+    const SurfacePoint hit = walkSkin(rig, scene, row, x);
+    const Tri& corners = rig.triangles[hit.triangle];
+    if (onSkin) plane.add(row.vertex, 1);
+    // Around the end of a fold the walk may arrive at the vertex itself.
+    if (onSkin && (corners.array() == static_cast<int>(row.vertex)).any()) return plane;
+    for (int k = 0; k < 3; ++k)
+        plane.add(static_cast<std::uint32_t>(corners[k]), onSkin ? -hit.weights[k] : hit.weights[k]);
+    const auto normal = [&](int v) { return scene.normalOf(v); };
+    const Vec3f smooth = smoothNormal(hit, corners, normal),
+                own = onSkin ? Vec3f(-normal(static_cast<int>(row.vertex)))
+                             : scene.bodies[row.body].turned(scene.normals[row.vertex].head<3>());
+    float facing = smooth.dot(own);
+    if (row.insideAtRest) {
+        const Tri& anchor = rig.triangles[rig.starts[row.first]];
+        const Vec3f sum = normal(anchor[0]) + normal(anchor[1]) + normal(anchor[2]);
+        facing = std::max(facing, smooth.dot(sum.normalized()));
+    }
+    float trust = trustOf(facing);
+    const Vec3f away = onSkin ? x - hit.point : hit.point - x,
+                both = row.insideAtRest ? smooth : (smooth + own).normalized();
+    const bool behind = both.dot(away) < 0;
+    if (behind) trust = trustBehind(rig, scene, row, hit, trust, away.norm(), offset);
     if (!(trust > 0)) return plane;
-    fillPlane(rig, scene, both, away, both.dot(away) < 0 ? 0.0f : 1.0f, trust, offset, plane);
+    const float inside = row.insideAtRest ? -1.0f : 0.0f;
+    fillPlane(rig, scene, both, away, behind ? inside : 1.0f, trust, offset, plane);
     return plane;
 }
 
 } // namespace
 
 SkinPlane queryContact(const SkinRig& rig, const SkinScene& scene, const SkinRow& row, float offset) {
-    switch (row.kind) {
-    case SkinContactKind::SkinOnBody:
-        return skinOnBody(rig, scene, row, offset);
-    case SkinContactKind::BodyOnSkin:
-        return bodyOnSkin(rig, scene, row, offset);
-    case SkinContactKind::SkinOnSkin:
-        break;
-    }
-    return skinOnSkin(rig, scene, row, offset);
+    return row.kind == SkinContactKind::SkinOnBody ? skinOnBody(rig, scene, row, offset)
+                                                   : againstSkin(rig, scene, row, offset);
 }
 
 } // namespace tss

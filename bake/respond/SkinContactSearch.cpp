@@ -1,14 +1,10 @@
-#include "bake/respond/SkinContactSearch.h"
-
 #include "bake/base/Parallel.h"
 #include "bake/respond/MovingTriangles.h"
 #include "bake/respond/SkinContact.h"
-#include "bake/respond/SkinScene.h"
+#include "bake/respond/SkinRows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace tss {
 namespace {
@@ -29,52 +25,25 @@ struct Station {
     std::size_t stop = 0; ///< on a swing, from 1 on; 0: elsewhere
 };
 
-using Corners = std::array<Vec3, 8>;
-
-/// The corners of the bodies' bounds at rest, run-time lengths.
-std::vector<Corners> cornersOf(const SkinRig& rig) {
-    std::vector<Corners> result(rig.bodies.size());
-    for (std::size_t m = 0; m < result.size(); ++m) {
+/// How far a swing moves the corners of the bodies' bounds, at most: the length of its way, run-time lengths.
+double wayOf(const SkinRig& rig, const BoneSwing& swing) {
+    double longest = 0;
+    for (std::size_t m = 0; m < rig.bodies.size(); ++m) {
         Eigen::AlignedBox3f box;
         for (const Move& x : rig.bodies[m].rest) box.extend(x.head<3>());
-        for (int c = 0; c < 8; ++c)
-            result[m][c] =
-                box.isEmpty()
-                    ? Vec3(Vec3::Zero())
-                    : Vec3(box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(c)).cast<double>());
-    }
-    return result;
-}
-
-/// How far a swing moves bodies, at most: the length of its way, run-time lengths.
-double wayOf(const SkinRig& rig, const std::vector<Corners>& corners, const BoneSwing& swing) {
-    double longest = 0;
-    for (std::size_t m = 0; m < corners.size(); ++m) {
-        if (rig.bodies[m].rest.empty()) continue;
-        Corners before = corners[m];
-        std::array<double, 8> ways{};
-        for (const std::vector<Pose>& sample : swing) {
-            const Pose pose = rig.local(sample[m]);
-            for (std::size_t c = 0; c < 8; ++c) {
-                const Vec3 now = pose * corners[m][c];
-                ways[c] += (now - before[c]).norm();
-                before[c] = now;
+        for (int c = 0; c < 8 && !box.isEmpty(); ++c) {
+            const Vec3 corner = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(c)).cast<double>();
+            Vec3 before = corner;
+            double way = 0;
+            for (const std::vector<Pose>& sample : swing) {
+                const Vec3 now = rig.local(sample[m]) * corner;
+                way += (now - before).norm();
+                before = now;
             }
+            longest = std::max(longest, way);
         }
-        longest = std::max(longest, *std::ranges::max_element(ways));
     }
     return longest;
-}
-
-/// Adds stations on a swing whose way is so long, `most` of them at most.
-void addStations(const SkinRig& rig, const BoneSwing& swing, double way, const Station& rest,
-                 std::size_t most, std::vector<Station>& result) {
-    const double step = 4 * contactReach * static_cast<double>(rig.radius);
-    const std::size_t needed = step > 0 ? static_cast<std::size_t>(std::min(std::ceil(way / step), 1e6)) : 0;
-    const std::size_t stops =
-        std::min(std::clamp(needed, leastStops, std::max(leastStops, swing.size())), most);
-    for (std::size_t s = 1; s <= stops; ++s)
-        result.push_back({rest.activations, swing[(s * swing.size() + stops - 1) / stops - 1], s});
 }
 
 std::vector<Station> stationsOf(const SkinRig& rig) {
@@ -87,22 +56,25 @@ std::vector<Station> stationsOf(const SkinRig& rig) {
             result.push_back(rest);
             result.back().activations[m] = end;
         }
-    const std::vector<Corners> corners = cornersOf(rig);
     const auto addAll = [&](const std::vector<BoneSwing>& swings, std::size_t most) {
-        for (const BoneSwing& swing : swings)
-            addStations(rig, swing, wayOf(rig, corners, swing), rest, most, result);
+        const double step = 4 * contactReach * static_cast<double>(rig.radius);
+        for (const BoneSwing& swing : swings) {
+            const double steps = step > 0 ? std::min(std::ceil(wayOf(rig, swing) / step), 1e6) : 0;
+            const std::size_t stops = std::min(
+                std::clamp(static_cast<std::size_t>(steps), leastStops, std::max(leastStops, swing.size())),
+                most);
+            for (std::size_t s = 1; s <= stops; ++s)
+                result.push_back({rest.activations, swing[(s * swing.size() + stops - 1) / stops - 1], s});
+        }
     };
-    const SkinParameters& parameters = rig.parameters;
-    addAll(parameters.swings, std::numeric_limits<std::size_t>::max());
-    addAll(parameters.together,
-           std::max<std::size_t>(1, mostTogether / std::max<std::size_t>(1, parameters.together.size())));
+    const std::vector<BoneSwing>& together = rig.parameters.together;
+    addAll(rig.parameters.swings, std::numeric_limits<std::size_t>::max());
+    addAll(together, std::max<std::size_t>(1, mostTogether / std::max<std::size_t>(1, together.size())));
     return result;
 }
 
-std::vector<Vec3> placesOf(const std::vector<Move>& vertices) {
-    std::vector<Vec3> places;
-    for (const Move& x : vertices) places.push_back(x.head<3>().cast<double>());
-    return places;
+void addOnce(int triangle, std::vector<int>& list) {
+    if (std::ranges::find(list, triangle) == list.end()) list.push_back(triangle);
 }
 
 class Search {
@@ -110,9 +82,10 @@ public:
     explicit Search(const SkinRig& rig)
         : rig_(rig), reach_(contactReach * static_cast<double>(rig.radius)),
           depth_(static_cast<double>(enterDepth * rig.radius)), rest_{placesOf(rig.places), rig.triangles},
-          wayAtRest_(rest_), skin_(rest_) {
-        found_.bodies = SkinContacts(rig.bodyVertices);
-        if (rig.parameters.selfContact) found_.folds = SkinContacts(rig.places.size());
+          wayAtRest_(rest_), skin_(rest_), stickingOut_(rig.bodyVertices, 0) {
+        found_.bodies.resize(rig.bodyVertices);
+        found_.outside.resize(rig.bodyVertices, 0);
+        if (rig.parameters.selfContact) found_.folds.resize(rig.places.size());
     }
 
     SkinContactSearch run() {
@@ -174,13 +147,13 @@ private:
     }
 
     void findBodyContact(const SkinBody& body, bool still, std::size_t v, const Vec3& x, const Vec3& own) {
-        SkinContacts& found = found_.bodies;
-        if (found.outside[v] || found.stickingOut[v]) return;
+        std::vector<int>& found = found_.bodies[v];
+        if (found_.outside[v] || stickingOut_[v]) return;
         if (atRest_ && !body.bone()) {
             const NearestPoint any = skin_.nearest(x, Vec3::Zero(), reach_, false);
             if (any.triangle >= 0 && normalOf(any).dot(x - any.point) > 0) {
-                found.outside[v] = 1;
-                found.add(v, any.triangle);
+                found_.outside[v] = 1;
+                found.push_back(any.triangle);
                 return;
             }
         }
@@ -188,9 +161,9 @@ private:
         const NearestPoint near = skin_.nearest(x, own, reach_, still);
         if (near.triangle < 0) return;
         if (normalOf(near).dot(near.point - x) < -depth_) {
-            if (atRest_) found.stickingOut[v] = 1;
+            if (atRest_) stickingOut_[v] = 1;
         } else if (under(body.rest[v - body.first].head<3>().cast<double>(), near.triangle)) {
-            found.add(v, near.triangle);
+            addOnce(near.triangle, found);
         }
     }
 
@@ -231,7 +204,7 @@ private:
         if (normalOf(near).dot(x - near.point) < -depth_ - near.half ||
             own.dot(near.point - x) < -depth_ - near.half)
             return;
-        found_.folds.add(v, near.triangle);
+        addOnce(near.triangle, found_.folds[v]);
     }
 
     const SkinRig& rig_;
@@ -240,16 +213,13 @@ private:
     SkinScene scene_;
     const TriangleMesh rest_;
     const ClosestPointQuery wayAtRest_;
-    MovingTriangles skin_; ///< as bodies carry it
+    MovingTriangles skin_;          ///< as bodies carry it
+    std::vector<char> stickingOut_; ///< per vertex of all bodies: a bone's, such as a tooth's, that is above
+                                    ///< the skin at rest
     bool atRest_ = true;
 };
 
 } // namespace
-
-void SkinContacts::add(std::size_t vertex, int triangle) {
-    std::vector<int>& list = triangles[vertex];
-    if (std::find(list.begin(), list.end(), triangle) == list.end()) list.push_back(triangle);
-}
 
 SkinContactSearch searchContacts(const SkinRig& rig) {
     return Search(rig).run();

@@ -1,7 +1,5 @@
 #include "bake/respond/SkinContactSolver.h"
 
-#include "bake/respond/SkinClearance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -61,9 +59,8 @@ void eachVertex(const SkinRig& rig, const SkinRow& row, const What& what) {
 
 } // namespace
 
-SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
-    : rig_(rig), clock_(clock), pushes_(rig), turnLimit_(rig), planeOf_(rig.rows.size(), 0),
-      waitingOf_(rig.rows.size(), 0) {
+SkinContactSolver::SkinContactSolver(const SkinRig& rig)
+    : rig_(rig), pushes_(rig), turnLimit_(rig), planeOf_(rig.rows.size(), 0), waitingOf_(rig.rows.size(), 0) {
     std::vector<std::vector<std::uint32_t>> rows(rig.blocks());
     for (std::uint32_t r = 0; r < rig.rows.size(); ++r)
         eachVertex(rig, rig.rows[r], [&](std::uint32_t v) {
@@ -73,39 +70,14 @@ SkinContactSolver::SkinContactSolver(const SkinRig& rig, SkinClock& clock)
     blockRows_ = Lists<std::uint32_t>(rows);
 }
 
-void SkinContactSolver::wait(std::uint32_t r, const Waiting& row) {
-    if (waitingOf_[r] == 0) {
-        waitingRows_.push_back(r);
-        waitingOf_[r] = static_cast<std::uint32_t>(waitingRows_.size());
-        waiting_.emplace_back();
-    }
-    waiting_[waitingOf_[r] - 1] = row;
-}
-
-/// Stores a row that is not violated; it need not be queried again before contacts have moved its point.
-void SkinContactSolver::addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane) {
-    float free = unseen;
-    if (plane.found) {
-        const float clear = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
-        // Of a vertex in a body another side may be the nearest at once.
-        free = rig_.rows[r].insideAtRest ? std::min(clear, unseen) : clear;
-    }
-    wait(r, {plane, constrainedPoint(scene, plane), free});
-}
-
 bool SkinContactSolver::mayBeViolated(const SkinScene& scene, const Waiting& row) const {
+    const auto displaced = [&](std::uint32_t v) { return pushes_.displaced(v); };
     if (row.free < 0) return true;
-    return displaced(row.plane) &&
-           (constrainedPoint(scene, row.plane) - row.place).squaredNorm() > row.free * row.free;
+    return std::any_of(row.plane.vertex, row.plane.vertex + row.plane.vertices, displaced) &&
+           (constrainedPoint(scene, row.plane) - row.plane.place).squaredNorm() > row.free * row.free;
 }
 
-/// Whether contacts have displaced any vertex of a plane.
-bool SkinContactSolver::displaced(const SkinPlane& plane) const {
-    bool any = false;
-    for (int k = 0; k < plane.vertices; ++k) any = any || pushes_.displaced(plane.vertex[k]);
-    return any;
-}
-
+/// Whether contacts have displaced any vertex of a row.
 bool SkinContactSolver::displaced(const SkinRow& row) const {
     bool any = false;
     eachVertex(rig_, row, [&](std::uint32_t v) { any = any || pushes_.displaced(v); });
@@ -113,119 +85,120 @@ bool SkinContactSolver::displaced(const SkinRow& row) const {
 }
 
 /// Key by which addDeepest() groups violated rows: the node with the largest weight, the kind, and the body.
-std::uint64_t SkinContactSolver::selectionKey(const SkinRow& row, const SkinPlane& plane) const {
+std::uint64_t SkinContactSolver::selectionKey(const SkinPlane& plane) const {
     const SkinFoundation& f = rig_.foundation;
+    const SkinRow& row = rig_.rows[plane.row];
     const std::span<const SkinEntry> weights = f.weights[plane.vertex[0]];
     const auto most = std::ranges::max_element(weights, {}, &SkinEntry::value);
     const std::uint64_t node = weights.empty() ? f.nodes : most->index;
     return (node * 3 + static_cast<std::uint64_t>(row.kind)) * rig_.bodies.size() + row.body;
 }
 
-void SkinContactSolver::addPlane(std::uint32_t r, const SkinPlane& plane) {
-    rows_.push_back(r);
+void SkinContactSolver::addPlane(const SkinPlane& plane) {
     planes_.push_back(plane);
-    planeOf_[r] = static_cast<std::uint32_t>(planes_.size());
+    planeOf_[plane.row] = static_cast<std::uint32_t>(planes_.size());
 }
 
 /// Makes planes of the deepest violated row of each key. Pushes act through nodes, so that its push satisfies
 /// most of the others too; those left over are queried again in the next round.
 void SkinContactSolver::addDeepest() {
-    std::sort(violated_.begin(), violated_.end(), [](const Violated& a, const Violated& b) {
-        return std::tie(a.key, a.plane.gap, a.row) < std::tie(b.key, b.plane.gap, b.row);
+    std::ranges::sort(violated_, {}, [&](std::uint32_t w) {
+        return std::tuple(waiting_[w].key, waiting_[w].plane.gap, waiting_[w].plane.row);
     });
-    for (std::size_t k = 0; k < violated_.size(); ++k)
-        if (k == 0 || violated_[k].key != violated_[k - 1].key)
-            addPlane(violated_[k].row, violated_[k].plane);
+    for (std::size_t k = 0; k < violated_.size(); ++k) {
+        const Waiting& row = waiting_[violated_[k]];
+        if (k == 0 || row.key != waiting_[violated_[k - 1]].key) addPlane(row.plane);
+    }
     violated_.clear();
 }
 
 void SkinContactSolver::clear() {
-    for (const std::uint32_t r : rows_) planeOf_[r] = 0;
-    for (const std::uint32_t r : waitingRows_) waitingOf_[r] = 0;
-    rows_.clear();
-    waitingRows_.clear();
+    for (const SkinPlane& plane : planes_) planeOf_[plane.row] = 0;
+    for (const Waiting& row : waiting_) waitingOf_[row.plane.row] = 0;
     planes_.clear();
     violated_.clear();
     waiting_.clear();
     pushes_.clear();
 }
 
-SkinPlane SkinContactSolver::timedQuery(const SkinScene& scene, const SkinRow& row) {
-    if (clock_.costs == nullptr) return queryContact(rig_, scene, row);
-    ++clock_.costs->lookUps;
+SkinPlane SkinContactSolver::timedQuery(const SkinScene& scene, std::uint32_t r) {
+    const SkinRow& row = rig_.rows[r];
+    if (clock.costs != nullptr) clock.charge(SkinPart::Sort);
+    SkinPlane plane = queryContact(rig_, scene, row);
+    plane.row = r;
+    if (clock.costs == nullptr) return plane;
     const SkinPart body = rig_.bodies[row.body].bone() ? SkinPart::Bones : SkinPart::Muscles;
-    const SkinClock::Scope scope(clock_, row.kind == SkinContactKind::SkinOnSkin ? SkinPart::Folds : body);
-    return queryContact(rig_, scene, row);
+    clock.charge(row.kind == SkinContactKind::SkinOnSkin ? SkinPart::Folds : body);
+    ++clock.costs->lookUps;
+    return plane;
 }
 
+/// Queries a row that has no plane, and lets it wait.
 void SkinContactSolver::query(const SkinScene& scene, std::uint32_t r) {
-    const SkinPlane plane = timedQuery(scene, rig_.rows[r]);
-    if (!plane.found || plane.gap >= 0) return addSatisfied(scene, r, plane);
-    violated_.push_back({selectionKey(rig_.rows[r], plane), r, plane});
-    wait(r, {});
-}
-
-/// Queries all rows that may touch, with the skin as muscles and bones carry it.
-void SkinContactSolver::queryAll(const SkinScene& scene) {
-    const SkinClock::Scope scope(clock_, SkinPart::Sort);
-    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
-        if (mayTouch(rig_, scene, rig_.rows[r])) query(scene, r);
-}
-
-/// The deepest violation of the rows in violated_.
-float SkinContactSolver::deepestViolation() const {
-    float deepest = 0;
-    for (const Violated& one : violated_) deepest = std::max(deepest, -one.plane.gap);
-    return deepest;
+    SkinPlane plane = timedQuery(scene, r);
+    plane.place = constrainedPoint(scene, plane);
+    float free = unseen;
+    if (plane.found) free = std::max(std::min(plane.gap, plane.distance - rig_.rows[r].offset) / 2, settled);
+    // Of a vertex in a body another side may be the nearest at once.
+    if (rig_.rows[r].insideAtRest) free = std::min(free, unseen);
+    const bool violated = plane.found && plane.gap < 0;
+    if (waitingOf_[r] == 0) {
+        waiting_.emplace_back();
+        waitingOf_[r] = static_cast<std::uint32_t>(waiting_.size());
+    }
+    waiting_[waitingOf_[r] - 1] = {plane, violated ? -1 : free, violated ? selectionKey(plane) : 0};
+    if (violated) violated_.push_back(waitingOf_[r] - 1);
 }
 
 /// Updates all planes, and queries other rows where contacts have displaced the skin. Returns the largest
 /// violation of the planes.
 float SkinContactSolver::queryDisplaced(const SkinScene& scene) {
-    const SkinClock::Scope scope(clock_, SkinPart::Sort);
     const float slide = mostSlide * static_cast<float>(rig_.foundation.length);
     float lack = 0;
     for (std::size_t k = 0, count = planes_.size(); k < count; ++k) {
-        const std::uint32_t r = rows_[k];
+        const std::uint32_t r = planes_[k].row;
         if (planeOf_[r] != k + 1) continue; // replaced
-        SkinPlane now = timedQuery(scene, rig_.rows[r]);
+        SkinPlane now = timedQuery(scene, r);
         const auto slid = [&] { return (now.place - constrainedPoint(scene, planes_[k])).norm() > slide; };
         if (now.found && now.gap < -settled && slid()) {
             now.push = drop(planes_[k]);
-            addPlane(r, now);
+            addPlane(now);
         } else {
             updatePlane(now, scene, slide, planes_[k]);
         }
         lack = std::max(lack, -planes_[planeOf_[r] - 1].gap);
     }
-    for (std::size_t k = 0, count = waiting_.size(); k < count; ++k)
-        if (planeOf_[waitingRows_[k]] == 0 && mayBeViolated(scene, waiting_[k]))
-            query(scene, waitingRows_[k]);
+    for (std::size_t k = 0, count = waiting_.size(); k < count; ++k) {
+        const std::uint32_t r = waiting_[k].plane.row;
+        if (planeOf_[r] == 0 && mayBeViolated(scene, waiting_[k])) query(scene, r);
+    }
     for (std::size_t b = 0; b < blockRows_.size(); ++b) {
         if (!pushes_.reaches(b)) continue;
         for (const std::uint32_t r : blockRows_[b])
             if (waitingOf_[r] == 0 && displaced(rig_.rows[r]) && mayTouch(rig_, scene, rig_.rows[r]))
                 query(scene, r);
     }
+    clock.charge(SkinPart::Sort);
     return lack;
 }
 
 std::size_t SkinContactSolver::push(SkinScene& scene) {
     clear();
-    queryAll(scene);
+    for (std::uint32_t r = 0; r < rig_.rows.size(); ++r)
+        if (mayTouch(rig_, scene, rig_.rows[r])) query(scene, r);
+    clock.charge(SkinPart::Sort);
     if (violated_.empty()) return 0;
     float last = std::numeric_limits<float>::max(), least = last, before = last;
     best_.clear();
     for (int round = 1, stalled = 0;; ++round) {
-        std::size_t pushing = 0;
-        {
-            const SkinClock::Scope scope(clock_, SkinPart::Pushes);
-            addDeepest();
-            pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
-            applied_ = planes_;
-            pushing = pushes_.apply(applied_, scene);
-        }
-        const float lack = queryDisplaced(scene), now = std::max(lack, deepestViolation());
+        addDeepest();
+        pushes_.solve(planes_, scene.carried, rig_.parameters.iterations);
+        applied_ = planes_;
+        std::size_t pushing = pushes_.apply(applied_, scene);
+        clock.charge(SkinPart::Pushes);
+        const float lack = queryDisplaced(scene);
+        float now = lack;
+        for (const std::uint32_t w : violated_) now = std::max(now, -waiting_[w].plane.gap);
         if (now < least) {
             least = now;
             best_.swap(applied_);
@@ -236,10 +209,10 @@ std::size_t SkinContactSolver::push(SkinScene& scene) {
         const bool more = !whole || (least > unseen && least <= before / 2);
         if (whole) before = least;
         if (more && (!violated_.empty() || (lack > settled && stalled < mostStalled))) continue;
-        const SkinClock::Scope scope(clock_, SkinPart::Pushes);
         // Where bones press from two sides the last result may be worse than an earlier one.
         if (now > least) pushing = pushes_.apply(best_, scene);
         turnLimit_.limit(scene, pushes_);
+        clock.charge(SkinPart::Pushes);
         return pushing;
     }
 }

@@ -10,8 +10,10 @@ namespace tss {
 /// for one push() only.
 class SkinContactSolver {
 public:
-    /// Keeps references to both.
-    SkinContactSolver(const SkinRig& rig, SkinClock& clock);
+    SkinClock clock;
+
+    /// Keeps a reference to the rig.
+    explicit SkinContactSolver(const SkinRig& rig);
 
     /// Moves all vertices displaced by contacts back to where muscles and bones carry them.
     void undoPushes(SkinScene& scene) { pushes_.undo(scene); }
@@ -28,46 +30,32 @@ public:
 private:
     /// A row that was queried in this update, and of which no plane was made.
     struct Waiting {
-        SkinPlane plane;
-        Eigen::Vector3f place = Eigen::Vector3f::Zero(); ///< its constrained point at that time
-        float free = -1; ///< by how much the point may move before the row is queried again; negative: it is
-                         ///< violated, and waits for what the push of a deeper one beside it does
-    };
-    /// A row that was queried and is violated. Of those with the same key the deepest becomes a plane.
-    struct Violated {
-        std::uint64_t key = 0;
-        std::uint32_t row = 0;
-        SkinPlane plane;
+        SkinPlane plane; ///< what was found last
+        float free = -1; ///< by how much its point may move before the row is queried again; negative: it
+                         ///< is violated, and waits for what the push of a deeper one beside it does
+        std::uint64_t key = 0; ///< of violated rows with the same key the deepest becomes a plane
     };
     void clear();
-    void queryAll(const SkinScene& scene);
     float queryDisplaced(const SkinScene& scene);
     void query(const SkinScene& scene, std::uint32_t r);
-    SkinPlane timedQuery(const SkinScene& scene, const SkinRow& row);
-    void addSatisfied(const SkinScene& scene, std::uint32_t r, const SkinPlane& plane);
-    void wait(std::uint32_t r, const Waiting& row);
+    SkinPlane timedQuery(const SkinScene& scene, std::uint32_t r);
     bool mayBeViolated(const SkinScene& scene, const Waiting& row) const;
-    bool displaced(const SkinPlane& plane) const;
     bool displaced(const SkinRow& row) const;
-    std::uint64_t selectionKey(const SkinRow& row, const SkinPlane& plane) const;
-    void addPlane(std::uint32_t r, const SkinPlane& plane);
+    std::uint64_t selectionKey(const SkinPlane& plane) const;
+    void addPlane(const SkinPlane& plane);
     void addDeepest();
-    float deepestViolation() const;
 
     const SkinRig& rig_;
-    SkinClock& clock_;
     SkinPushes pushes_;
     SkinTurnLimit turnLimit_;
     std::vector<SkinPlane> planes_;
     std::vector<SkinPlane> applied_,
-        best_;                        ///< planes_ when last applied, and when least was violated after that
-    std::vector<std::uint32_t> rows_; ///< row of each of planes_
+        best_; ///< planes_ when last applied, and when least was violated after that
     std::vector<std::uint32_t> planeOf_; ///< #rows: 1 + the index of its latest in planes_, 0: none
-    std::vector<Violated> violated_;
     std::vector<Waiting> waiting_;
-    std::vector<std::uint32_t> waitingRows_; ///< row of each of waiting_
-    std::vector<std::uint32_t> waitingOf_;   ///< #rows: 1 + its index in waiting_, 0: none
-    Lists<std::uint32_t> blockRows_;         ///< per block: rows about its vertices
+    std::vector<std::uint32_t> waitingOf_; ///< #rows: 1 + its index in waiting_, 0: none
+    std::vector<std::uint32_t> violated_;  ///< indices into waiting_
+    Lists<std::uint32_t> blockRows_;       ///< per block: rows about its vertices
 };
 
 } // namespace tss

@@ -14,9 +14,8 @@ enum class SkinPart {
     Folds,   ///< look-ups of the skin at itself
     Pushes,  ///< how much each contact pushes, and what the skin does then
     Show,    ///< places and normals as they are handed out
-    None,    ///< what is between two updates
 };
-constexpr auto skinParts = static_cast<std::size_t>(SkinPart::None);
+constexpr auto skinParts = static_cast<std::size_t>(SkinPart::Show) + 1;
 
 /// What the updates of a skin have cost, part by part.
 struct SkinCosts {
@@ -25,38 +24,22 @@ struct SkinCosts {
     std::size_t lookUps = 0;
 };
 
-/// Charges time to one part at a time. Does nothing without costs to fill.
-class SkinClock {
-public:
+/// A stopwatch for the parts of an update. Does nothing without costs to fill.
+struct SkinClock {
     SkinCosts* costs = nullptr;
+    std::chrono::steady_clock::time_point last; ///< when something was charged last
 
-    /// Charges what is in its scope to a part, and no longer to that around it.
-    class Scope {
-    public:
-        Scope(SkinClock& clock, SkinPart part) : clock_(clock), around_(clock.part_) { clock_.turn(part); }
-        ~Scope() { clock_.turn(around_); }
-        Scope(const Scope&) = delete;
-        Scope& operator=(const Scope&) = delete;
-
-    private:
-        SkinClock& clock_;
-        SkinPart around_;
-    };
-
-private:
-    using Time = std::chrono::steady_clock;
-    void turn(SkinPart part) {
-        if (costs == nullptr) return;
-        const Time::time_point now = Time::now();
-        if (part_ != SkinPart::None)
-            costs->seconds[static_cast<std::size_t>(part_)] +=
-                std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        part_ = part;
+    void start() {
+        if (costs != nullptr) last = std::chrono::steady_clock::now();
     }
-
-    SkinPart part_ = SkinPart::None;
-    Time::time_point last_;
+    /// Charges the time since the last call to a part.
+    void charge(SkinPart part) {
+        const auto before = last;
+        start();
+        if (costs != nullptr)
+            costs->seconds[static_cast<std::size_t>(part)] +=
+                std::chrono::duration<double>(last - before).count();
+    }
 };
 
 } // namespace tss

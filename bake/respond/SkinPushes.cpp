@@ -14,7 +14,7 @@ constexpr float regularisation = 0.003f;
 } // namespace
 
 SkinPushes::SkinPushes(const SkinRig& rig)
-    : rig_(rig), lastPlane_(rig.foundation.nodes, none), sums_(rig.foundation.nodes, 0), couplings_(0, 0),
+    : rig_(rig), nodePlanes_(rig.foundation.nodes), sums_(rig.foundation.nodes, 0), couplings_(0, 0),
       nodes_(rig.foundation.nodes, Move::Zero()), reached_(rig.blocks(), 0),
       displaced_(rig.places.size(), 0) {}
 
@@ -39,29 +39,20 @@ void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
 }
 
 void SkinPushes::couple(std::uint32_t r, std::uint32_t s, float coupling) {
-    Row& row = rows_[r];
-    if (row.tail == none || blocks_[row.tail].first != s / 4 * 4) {
-        const auto added = static_cast<std::uint32_t>(blocks_.size());
-        (row.tail == none ? row.head : blocks_[row.tail].next) = added;
-        row.tail = added;
-        blocks_.emplace_back().first = s / 4 * 4;
-    }
-    blocks_[row.tail].coupling[s % 4] = coupling;
+    std::vector<Block>& row = rows_[r];
+    if (row.empty() || row.back().first != s / 4 * 4) row.emplace_back().first = s / 4 * 4;
+    row.back().coupling[s % 4] = coupling;
 }
 
 /// Computes the couplings of the new planes with all others that constrain a node they move.
 void SkinPushes::addCouplings() {
     const std::size_t count = weights_.size();
     couplings_.resize(count);
-    rows_.resize(count);
+    rows_.resize(std::max(rows_.size(), count));
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
-        for (const auto& [node, value] : weights_[r]) {
-            nodePlanes_.push_back({r, value, lastPlane_[node]});
-            lastPlane_[node] = static_cast<std::uint32_t>(nodePlanes_.size()) - 1;
-        }
+        for (const auto& [node, weight] : weights_[r]) nodePlanes_[node].push_back({r, weight});
         for (const auto& [node, move] : column_[r])
-            for (std::uint32_t o = lastPlane_[node]; o != none; o = nodePlanes_[o].previous)
-                couplings_[nodePlanes_[o].plane] += move * nodePlanes_[o].weight;
+            for (const auto& [plane, weight] : nodePlanes_[node]) couplings_[plane] += move * weight;
         self_.push_back(couplings_.at(r));
         std::ranges::sort(couplings_.places());
         couplings_.take([&](std::uint32_t s, float sum) {
@@ -73,36 +64,30 @@ void SkinPushes::addCouplings() {
 }
 
 void SkinPushes::clear() {
-    for (const SkinEntry& entry : weights_.items()) lastPlane_[entry.index] = none;
-    nodePlanes_.clear();
+    for (const SkinEntry& entry : weights_.items()) nodePlanes_[entry.index].clear();
+    for (std::size_t r = 0; r < self_.size(); ++r) rows_[r].clear();
     weights_.clear();
     column_.clear();
     self_.clear();
-    rows_.clear();
-    blocks_.clear();
 }
 
-/// Sets up the problem for the planes' current normals and levels: demand, matrix and residual.
+/// Sets up the problem for the planes' current normals and levels: matrix and residual.
 void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base) {
     const std::size_t count = planes.size(), whole = (count + 3) / 4 * 4;
-    demand_.assign(whole, 0);
+    lack_.assign(whole, 0);
     for (std::vector<float>& normals : normals_) normals.assign(whole, 0);
     for (std::size_t r = 0; r < count; ++r) {
         Eigen::Vector3f now = Eigen::Vector3f::Zero();
         for (int k = 0; k < planes[r].vertices; ++k)
             now += planes[r].weight[k] * base[planes[r].vertex[k]].head<3>();
-        demand_[r] = planes[r].level - planes[r].normal.dot(now);
+        lack_[r] = planes[r].level - planes[r].normal.dot(now);
         for (int k = 0; k < 3; ++k) normals_[k][r] = planes[r].normal[k];
     }
-    lack_ = demand_;
     for (std::size_t r = 0; r < count; ++r) {
         const Eigen::Vector3f& normal = planes[r].normal;
-        for (std::uint32_t b = rows_[r].head; b != none; b = blocks_[b].next) {
-            const std::uint32_t first = blocks_[b].first;
-            const Four facing =
-                normal[0] * blockAt(normals_[0], first) +
-                (normal[1] * blockAt(normals_[1], first) + normal[2] * blockAt(normals_[2], first));
-            blocks_[b].matrix = blocks_[b].coupling * facing;
+        for (Block& block : rows_[r]) {
+            const auto along = [&](int k) { return normal[k] * Four::Map(normals_[k].data() + block.first); };
+            block.matrix = block.coupling * (along(0) + (along(1) + along(2)));
         }
     }
     for (std::size_t r = 0; r < count; ++r)
@@ -112,10 +97,7 @@ void SkinPushes::prepare(std::span<SkinPlane> planes, std::span<const Move> base
 /// Updates the residual for a change of one push.
 void SkinPushes::addPush(std::size_t r, float change) {
     lack_[r] -= (1 + regularisation) * self_[r] * change;
-    float* lack = lack_.data();
-    const Block* blocks = blocks_.data();
-    for (std::uint32_t b = rows_[r].head; b != none; b = blocks[b].next)
-        Eigen::Map<Four>(lack + blocks[b].first) -= blocks[b].matrix * change;
+    for (const Block& block : rows_[r]) Four::Map(lack_.data() + block.first) -= block.matrix * change;
 }
 
 /// One sweep of projected Gauss-Seidel. Returns the largest displacement that a change of push makes.

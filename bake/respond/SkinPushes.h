@@ -77,49 +77,33 @@ public:
 
 private:
     using Four = Eigen::Array4f;
-    static constexpr std::uint32_t none = ~0u;
-    /// Entry of a linked list, one per node, of the planes that constrain the node.
-    struct NodePlane {
-        std::uint32_t plane;
-        float weight;           ///< of the node in the plane
-        std::uint32_t previous; ///< entry in nodePlanes_, or `none`
-    };
-    /// Four columns of a row of the symmetric matrix, without its diagonal.
+    /// Four columns of a row of the symmetric matrix, without its diagonal. "Coupling" of two planes: by how
+    /// much a push of 1 of one would move the other's constrained point along its normal if both normals were
+    /// equal.
     struct Block {
+        std::uint32_t first = 0; ///< column
         Four coupling = Four::Zero();
-        Four matrix;               ///< coupling times the cosine between both normals
-        std::uint32_t first = 0;   ///< column
-        std::uint32_t next = none; ///< of the row, in blocks_
-    };
-    struct Row {
-        std::uint32_t head = none, tail = none; ///< in blocks_
+        Four matrix = Four::Zero(); ///< coupling times the cosine between both normals
     };
     void couple(std::uint32_t r, std::uint32_t s, float coupling);
     void addColumns(std::span<const SkinPlane> planes);
     void addCouplings();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base);
     void addPush(std::size_t r, float change);
-    Four blockAt(const std::vector<float>& values, std::uint32_t first) const {
-        return Eigen::Map<const Four>(values.data() + first);
-    }
     float sweep(std::span<SkinPlane> planes, bool backwards);
 
     const SkinRig& rig_;
-    // Of the planes so far, kept by solve() from call to call until clear(). "Coupling" of two planes: by how
-    // much a push of 1 of one would move the other's constrained point along its normal if both normals were
-    // equal.
+    // Of the planes so far, kept by solve() from call to call until clear().
     Lists<SkinEntry> weights_; ///< per plane: its weights on nodes
     Lists<SkinEntry> column_;  ///< per plane: displacement of nodes by a push of 1
-    std::vector<Row> rows_;    ///< per plane: its couplings with others, columns rising
-    std::vector<Block> blocks_;
-    std::vector<float> self_; ///< per plane: coupling with itself
-    std::vector<NodePlane> nodePlanes_;
-    std::vector<std::uint32_t> lastPlane_; ///< per node: last entry of its list in nodePlanes_, or `none`
+    std::vector<float> self_;  ///< per plane: coupling with itself
+    std::vector<std::vector<Block>>
+        rows_; ///< per plane, and empty ones: couplings with others, columns rising
+    std::vector<std::vector<SkinEntry>> nodePlanes_; ///< per node: planes that constrain it, and its weights
 
-    // Per plane; those read in blocks are padded to whole blocks of four.
-    std::vector<float> demand_;                 ///< violation before any push (right-hand side), padded
-    std::vector<float> lack_;                   ///< violation with the current pushes (residual), padded
-    std::array<std::vector<float>, 3> normals_; ///< x, y and z, padded
+    // Per plane, padded to whole blocks of four.
+    std::vector<float> lack_;                   ///< violation with the current pushes (residual)
+    std::array<std::vector<float>, 3> normals_; ///< x, y and z
 
     SparseSums<float> sums_;      ///< over nodes
     SparseSums<float> couplings_; ///< over planes

@@ -1,8 +1,5 @@
 #include "bake/respond/SkinResponse.h"
 
-#include "bake/respond/SkinContactSolver.h"
-#include "bake/respond/SkinNormalKernel.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,50 +19,22 @@ bool isUsable(const Pose& pose) {
 
 } // namespace
 
-/// The implementation of a response: its rig, and the state of the last update.
-class SkinResponse::State {
-public:
-    explicit State(std::shared_ptr<const SkinRig> rig);
-    SkinUpdate update(std::span<const double> activations, std::span<const Pose> poses,
-                      std::span<const Vec3> shift);
-    bool setShift(std::span<const Vec3> shift);
-    void deform();
-    void toRest();
-    void showPlaces(std::size_t block);
-    void showNormals(std::size_t block);
-    void show();
-
-    std::shared_ptr<const SkinRig> rig_;
-    SkinScene scene_;
-    SkinContactSolver contactSolver_;
-    SkinClock clock_;
-    SkinNormalKernel normalKernel_ = skinNormalKernel(bestTarget());
-    std::vector<Vec3> positions_, normals_;
-    std::vector<char> shown_, shownBefore_; ///< #blocks: positions or normals are not those at rest
-    std::vector<double> activations_;
-    std::vector<Pose> poses_;
-    std::vector<Vec3> shift_; ///< #touched; empty: none
-    std::size_t contacts_ = 0;
-    double pushed_ = 0; ///< as SkinUpdate has it
-    bool atRest_ = true;
-};
-
-SkinResponse::State::State(std::shared_ptr<const SkinRig> rig)
-    : rig_(std::move(rig)), contactSolver_(*rig_, clock_), positions_(rig_->rest),
-      normals_(rig_->restNormals), shown_(rig_->blocks(), 0), activations_(rig_->bodies.size(), 0),
+SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
+    : rig_(std::move(rig)), contacts_(*rig_), positions_(rig_->rest), normals_(rig_->restNormals),
+      shown_(rig_->blocks(), 0), activations_(rig_->bodies.size(), 0),
       poses_(rig_->bodies.size(), Pose::Identity()) {}
 
 /// Stores the shift; returns whether it is the same as before.
-bool SkinResponse::State::setShift(std::span<const Vec3> shift) {
-    const bool none = std::all_of(shift.begin(), shift.end(), [](const Vec3& s) { return s.isZero(0); });
+bool SkinResponse::setShift(std::span<const Vec3> shift) {
+    const bool none = std::ranges::all_of(shift, [](const Vec3& s) { return s.isZero(0); });
     if (none || shift.size() != rig_->vertices.size()) shift = {};
-    if (std::equal(shift.begin(), shift.end(), shift_.begin(), shift_.end())) return true;
+    if (std::ranges::equal(shift, shift_)) return true;
     shift_.assign(shift.begin(), shift.end());
     return false;
 }
 
-SkinUpdate SkinResponse::State::update(std::span<const double> activations, std::span<const Pose> poses,
-                                       std::span<const Vec3> shift) {
+SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses,
+                                std::span<const Vec3> shift) {
     bool same = setShift(shift), rest = shift_.empty();
     for (std::size_t m = 0; m < rig_->bodies.size(); ++m) {
         const double a = activationOf(activations, rig_->bodies[m], m);
@@ -77,45 +46,34 @@ SkinUpdate SkinResponse::State::update(std::span<const double> activations, std:
         rest = rest && isIdentity(pose);
         poses_[m] = pose;
     }
-    SkinUpdate result;
-    result.rest = rest;
+    last_.moved = rest != last_.rest || (!rest && !same);
+    last_.rest = rest;
+    if (!last_.moved) return last_;
     if (rest) {
-        result.moved = !atRest_;
-        if (!atRest_) toRest();
-        return result;
-    }
-    if (!same || atRest_) {
-        atRest_ = false;
-        result.moved = true;
+        positions_ = rig_->rest;
+        normals_ = rig_->restNormals;
+        last_.contacts = 0;
+        last_.pushed = 0;
+    } else {
         deform();
         show();
     }
-    result.contacts = contacts_;
-    result.pushed = pushed_;
-    return result;
+    return last_;
 }
 
-void SkinResponse::State::deform() {
-    if (clock_.costs != nullptr) ++clock_.costs->updates;
-    {
-        const SkinClock::Scope scope(clock_, SkinPart::Carry);
-        contactSolver_.undoPushes(scene_);
-        placeBodies(*rig_, activations_, poses_, shift_, scene_);
-    }
-    contacts_ = contactSolver_.push(scene_);
-    pushed_ = contacts_ > 0 ? rig_->size * static_cast<double>(contactSolver_.farthest()) : 0;
-}
-
-void SkinResponse::State::toRest() {
-    positions_ = rig_->rest;
-    normals_ = rig_->restNormals;
-    contacts_ = 0;
-    pushed_ = 0;
-    atRest_ = true;
+void SkinResponse::deform() {
+    SkinClock& clock = contacts_.clock;
+    if (clock.costs != nullptr) ++clock.costs->updates;
+    clock.start();
+    contacts_.undoPushes(scene_);
+    placeBodies(*rig_, activations_, poses_, shift_, scene_);
+    clock.charge(SkinPart::Carry);
+    last_.contacts = contacts_.push(scene_);
+    last_.pushed = last_.contacts > 0 ? rig_->size * static_cast<double>(contacts_.farthest()) : 0;
 }
 
 /// Copies the positions of a block to the output, scene units.
-void SkinResponse::State::showPlaces(std::size_t block) {
+void SkinResponse::showPlaces(std::size_t block) {
     const std::size_t first = block * SkinRig::block,
                       count = std::min(SkinRig::block, rig_->places.size() - first);
     const Move *skin = scene_.skin.data() + first, *places = rig_->places.data() + first;
@@ -127,7 +85,7 @@ void SkinResponse::State::showPlaces(std::size_t block) {
     for (std::size_t k = 0; k < 3 * count; ++k) position[k] = rest[k] + size * static_cast<double>(moved[k]);
 }
 
-void SkinResponse::State::showNormals(std::size_t block) {
+void SkinResponse::showNormals(std::size_t block) {
     const std::size_t first = block * SkinRig::block,
                       count = std::min(SkinRig::block, rig_->places.size() - first);
     float found[3 * SkinRig::block + 1];
@@ -140,59 +98,26 @@ void SkinResponse::State::showNormals(std::size_t block) {
 }
 
 /// Updates the output where skin has moved, the normals around it, and what is back at rest.
-void SkinResponse::State::show() {
-    const SkinClock::Scope scope(clock_, SkinPart::Show);
+void SkinResponse::show() {
     shownBefore_.swap(shown_);
     shown_.assign(rig_->blocks(), 0);
     for (std::size_t b = 0; b < shown_.size(); ++b)
-        if (scene_.live[b] != 0 || contactSolver_.pushed(b))
+        if (scene_.live[b] != 0 || contacts_.pushed(b))
             for (const std::uint32_t around : rig_->around[b]) shown_[around] = 1;
-    for (std::size_t b = 0; b < shown_.size(); ++b)
-        if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);
     for (std::size_t b = 0; b < shown_.size(); ++b) {
+        if (shown_[b] != 0 || shownBefore_[b] != 0) showPlaces(b);
         if (shown_[b] != 0) {
             showNormals(b);
         } else if (shownBefore_[b] != 0) {
-            const auto first = static_cast<std::ptrdiff_t>(b * SkinRig::block);
-            const auto count = std::min(SkinRig::block, rig_->places.size() - b * SkinRig::block);
-            std::copy_n(rig_->restNormals.begin() + first, count, normals_.begin() + first);
+            const auto [first, last] = rig_->verticesOf(b);
+            std::copy_n(rig_->restNormals.begin() + first, last - first, normals_.begin() + first);
         }
     }
     for (std::size_t k = 0, v = rig_->places.size(); k < rig_->twins.size(); ++k, ++v) {
         positions_[v] = positions_[rig_->twins[k]];
         normals_[v] = normals_[rig_->twins[k]];
     }
-}
-
-SkinResponse::SkinResponse(std::shared_ptr<const SkinRig> rig)
-    : state_(std::make_unique<State>(std::move(rig))) {}
-SkinResponse::SkinResponse(SkinResponse&&) noexcept = default;
-SkinResponse& SkinResponse::operator=(SkinResponse&&) noexcept = default;
-SkinResponse::~SkinResponse() = default;
-
-SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<const Pose> poses,
-                                std::span<const Vec3> shift) {
-    return state_->update(activations, poses, shift);
-}
-
-std::span<const std::uint32_t> SkinResponse::vertices() const {
-    return state_->rig_->vertices;
-}
-
-std::span<const Vec3> SkinResponse::positions() const {
-    return state_->positions_;
-}
-
-std::span<const Vec3> SkinResponse::normals() const {
-    return state_->normals_;
-}
-
-const SkinRig& SkinResponse::rig() const {
-    return *state_->rig_;
-}
-
-void SkinResponse::charge(SkinCosts* costs) {
-    state_->clock_.costs = costs;
+    contacts_.clock.charge(SkinPart::Show);
 }
 
 } // namespace tss

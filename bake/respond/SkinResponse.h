@@ -1,14 +1,8 @@
 #pragma once
-#include "bake/motion/Motion.h"
-
-#include <cstdint>
-#include <memory>
-#include <span>
+#include "bake/respond/SkinContactSolver.h"
+#include "bake/respond/SkinNormalKernel.h"
 
 namespace tss {
-
-struct SkinCosts;
-struct SkinRig;
 
 /// What an update did.
 struct SkinUpdate {
@@ -32,9 +26,6 @@ struct SkinUpdate {
 class SkinResponse {
 public:
     explicit SkinResponse(std::shared_ptr<const SkinRig> rig);
-    SkinResponse(SkinResponse&&) noexcept;
-    SkinResponse& operator=(SkinResponse&&) noexcept;
-    ~SkinResponse();
 
     /// activations: one per body in the rig's order, missing ones count as 0, clamped to each one's range.
     /// poses: motion of each body (its bone) since rest, in the skin's frame; empty: none moves.
@@ -44,20 +35,34 @@ public:
                       std::span<const Vec3> shift = {});
 
     /// The vertices that are touched, the only ones that move: indices into the skin's mesh.
-    std::span<const std::uint32_t> vertices() const;
+    std::span<const std::uint32_t> vertices() const { return rig_->vertices; }
     /// Of these: places in the skin's frame, and unit normals.
-    std::span<const Vec3> positions() const;
-    std::span<const Vec3> normals() const;
+    std::span<const Vec3> positions() const { return positions_; }
+    std::span<const Vec3> normals() const { return normals_; }
 
-    const SkinRig& rig() const;
+    const SkinRig& rig() const { return *rig_; }
 
     /// From now on each update adds to `costs`, which must outlive this; null: no longer. Look-ups are timed
     /// one by one, which makes them a tenth slower.
-    void charge(SkinCosts* costs);
+    void charge(SkinCosts* costs) { contacts_.clock.costs = costs; }
 
 private:
-    class State;
-    std::unique_ptr<State> state_;
+    bool setShift(std::span<const Vec3> shift);
+    void deform();
+    void showPlaces(std::size_t block);
+    void showNormals(std::size_t block);
+    void show();
+
+    std::shared_ptr<const SkinRig> rig_;
+    SkinScene scene_;
+    SkinContactSolver contacts_;
+    SkinNormalKernel normalKernel_ = skinNormalKernel(bestTarget());
+    std::vector<Vec3> positions_, normals_;
+    std::vector<char> shown_, shownBefore_; ///< #blocks: positions or normals are not those at rest
+    std::vector<double> activations_;
+    std::vector<Pose> poses_;
+    std::vector<Vec3> shift_; ///< #touched; empty: none
+    SkinUpdate last_{.moved = false, .rest = true};
 };
 
 } // namespace tss

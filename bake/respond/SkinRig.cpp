@@ -21,13 +21,13 @@ void check(const TriangleMesh& skin, std::size_t bodies, const SkinTable& table)
     if (table.skinVertices.size() != t.a.size() || table.muscleOf.size() != t.b.size() ||
         t.rowOffsets.size() != t.a.size() + 1)
         throw InputError("the table of a skin is incomplete");
-    for (const std::uint32_t v : table.skinVertices)
-        if (v >= skin.vertices.size())
-            throw InputError("the table of a skin names a vertex that it does not have");
-    for (const std::uint32_t m : table.muscleOf)
-        if (m >= bodies) throw InputError("the table of a skin names a muscle that it does not have");
-    for (const std::uint32_t c : t.columns)
-        if (c >= t.b.size()) throw InputError("the table of a skin names a sphere that it does not have");
+    const auto within = [](const std::vector<std::uint32_t>& list, std::size_t count, const char* what) {
+        if (std::ranges::any_of(list, [&](std::uint32_t index) { return index >= count; }))
+            throw InputError(std::string("the table of a skin names a ") + what + " that it does not have");
+    };
+    within(table.skinVertices, skin.vertices.size(), "vertex");
+    within(table.muscleOf, bodies, "muscle");
+    within(t.columns, t.b.size(), "sphere");
 }
 
 /// Fills the rig's vertices: those that anything may move, and the ring around them, whose normals turn.
@@ -69,31 +69,24 @@ Move placeOf(const SkinRig& rig, const Vec3& x) {
 }
 
 /// Adds the triangles whose corners are all touched, and the rings of all triangles around touched vertices.
-void addTriangles(SkinRig& rig, const TriangleMesh& skin, const std::vector<std::uint32_t>& indexOf) {
-    std::vector<std::uint32_t> borderOf(skin.vertices.size(), untouched);
+void addTriangles(SkinRig& rig, const TriangleMesh& skin, std::vector<std::uint32_t> indexOf) {
+    const auto touched = static_cast<std::uint32_t>(rig.vertices.size());
     std::vector<Tri> at;
     for (const Tri& t : skin.triangles) {
-        int inside = 0;
-        Tri local;
-        for (int k = 0; k < 3; ++k) inside += indexOf[t[k]] != untouched;
+        const auto inside = std::ranges::count_if(t, [&](int v) { return indexOf[v] < touched; });
         if (inside == 0) continue;
+        Tri& local = at.emplace_back();
         for (int k = 0; k < 3; ++k) {
-            std::uint32_t index = indexOf[t[k]];
+            std::uint32_t& index = indexOf[t[k]];
             if (index == untouched) {
-                std::uint32_t& border = borderOf[t[k]];
-                if (border == untouched) {
-                    border = static_cast<std::uint32_t>(rig.borderPlaces.size());
-                    rig.borderPlaces.push_back(placeOf(rig, skin.vertices[t[k]]));
-                }
-                index = static_cast<std::uint32_t>(rig.vertices.size()) + border;
+                index = touched + static_cast<std::uint32_t>(rig.borderPlaces.size());
+                rig.borderPlaces.push_back(placeOf(rig, skin.vertices[t[k]]));
             }
             local[k] = static_cast<int>(index);
         }
-        at.push_back(local);
         if (inside == 3) rig.triangles.push_back(local);
     }
-    const auto byFirstVertex = [](const Tri& a, const Tri& b) { return a.minCoeff() < b.minCoeff(); };
-    std::stable_sort(rig.triangles.begin(), rig.triangles.end(), byFirstVertex);
+    std::ranges::stable_sort(rig.triangles, {}, [](const Tri& t) { return t.minCoeff(); });
     rig.across = trianglesAcross(rig.triangles);
     rig.rings = skinRings(at, rig.vertices.size());
     for (const Vec3& x : rig.rest) rig.places.push_back(placeOf(rig, x));
@@ -111,25 +104,16 @@ void addTwins(SkinRig& rig, const SkinAnatomy& anatomy, const std::vector<std::u
     }
 }
 
-/// Finds which blocks each body and frame moves, and which blocks' normals depend on each block.
-void addBlocks(SkinRig& rig) {
-    const auto mark = [](std::vector<std::uint32_t>& list, std::size_t block) {
-        if (list.empty() || list.back() != block) list.push_back(static_cast<std::uint32_t>(block));
-    };
-    rig.frameBlocks.resize(rig.frames);
-    std::vector<std::uint32_t> bodyOf(rig.bodyVertices);
-    for (std::uint32_t m = 0; m < rig.bodies.size(); ++m)
-        std::fill_n(bodyOf.begin() + rig.bodies[m].first, rig.bodies[m].count, m);
+/// Finds which blocks' normals depend on each block.
+Lists<std::uint32_t> blocksAround(const SkinRig& rig) {
     std::vector<std::set<std::uint32_t>> around(rig.blocks());
     for (std::uint32_t v = 0; v < rig.vertices.size(); ++v) {
         const auto own = static_cast<std::uint32_t>(v / SkinRig::block);
-        for (const SkinPull& pull : rig.pulls[v]) mark(rig.bodies[bodyOf[pull.from]].blocks, own);
-        for (const SkinFrameShare& share : rig.frameShares[v]) mark(rig.frameBlocks[share.frame], own);
         around[own].insert(own);
         for (const std::uint32_t place : rig.rings[v / 2])
             if (place / 4 < rig.vertices.size()) around[place / 4 / SkinRig::block].insert(own);
     }
-    rig.around = Lists<std::uint32_t>(around);
+    return Lists<std::uint32_t>(around);
 }
 
 Lists<std::uint32_t> nodeBlocks(const SkinFoundation& foundation) {
@@ -140,11 +124,9 @@ Lists<std::uint32_t> nodeBlocks(const SkinFoundation& foundation) {
     return Lists<std::uint32_t>(blocks);
 }
 
-SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::span<const int> chain,
-                std::uint32_t first) {
+SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, std::span<const int> chain) {
     const Muscle& muscle = deformer.muscle();
     SkinBody body;
-    body.first = first;
     body.count = static_cast<std::uint32_t>(muscle.surface.vertices.size());
     body.triangles = muscle.surface.triangles;
     body.across = trianglesAcross(body.triangles);
@@ -165,29 +147,33 @@ SkinBody bodyOf(const SkinRig& rig, const MuscleDeformer& deformer, int frame, s
         for (const Vec3& o : medialOffsets(rest, ClosestPointQuery(rest), vertexNormals(rest)))
             body.room.push_back(static_cast<float>(o.norm() / rig.size));
     } else {
-        body.mesh = std::make_shared<const TriangleMesh>(meshOf(body.rest, body.triangles));
+        body.mesh = std::make_shared<const TriangleMesh>(TriangleMesh{placesOf(body.rest), body.triangles});
         body.locator = std::make_shared<const ClosestPointQuery>(*body.mesh);
     }
     return body;
 }
 
 void addBodies(SkinRig& rig, const SkinAnatomy& anatomy, const std::vector<int>& frames) {
-    std::uint32_t first = 0;
-    for (std::size_t m = 0; m < anatomy.bodies.size(); ++m) {
-        rig.bodies.push_back({});
-        rig.bodies.back().first = first;
-        first += static_cast<std::uint32_t>(anatomy.bodies[m]->muscle().surface.vertices.size());
-    }
+    rig.bodies.resize(anatomy.bodies.size());
     parallelFor(rig.bodies.size(), [&](std::size_t m) {
-        rig.bodies[m] =
-            bodyOf(rig, *anatomy.bodies[m], frames[m], chainOf(rig.parameters, m), rig.bodies[m].first);
+        rig.bodies[m] = bodyOf(rig, *anatomy.bodies[m], frames[m], chainOf(rig.parameters, m));
     });
-    rig.bodyVertices = first;
+    for (SkinBody& body : rig.bodies) {
+        body.first = static_cast<std::uint32_t>(rig.bodyVertices);
+        rig.bodyVertices += body.count;
+    }
 }
 
+/// Adds what each vertex follows, and which blocks each body and frame moves.
 void addShares(SkinRig& rig, const SkinAttachment& attachment) {
     rig.frames = attachment.frames.size();
-    for (const std::uint32_t v : rig.vertices) {
+    rig.frameBlocks.resize(rig.frames);
+    for (std::size_t i = 0; i < rig.vertices.size(); ++i) {
+        const std::uint32_t v = rig.vertices[i];
+        const auto mark = [&](std::vector<std::uint32_t>& blocks) {
+            const auto own = static_cast<std::uint32_t>(i / SkinRig::block);
+            if (blocks.empty() || blocks.back() != own) blocks.push_back(own);
+        };
         for (std::size_t m = 0; m < attachment.muscles.size(); ++m) {
             if (attachment.muscles[m].empty() || !(attachment.muscles[m][v] > 0)) continue;
             const NearestPoint& near = attachment.bindings[m][v];
@@ -196,27 +182,24 @@ void addShares(SkinRig& rig, const SkinAttachment& attachment) {
                 if (near.weights[k] > 0)
                     rig.pulls.push_back({rig.bodies[m].first + static_cast<std::uint32_t>(corners[k]),
                                          static_cast<float>(attachment.muscles[m][v] * near.weights[k])});
+            mark(rig.bodies[m].blocks);
         }
-        for (std::uint32_t f = 0; f < rig.frames; ++f)
-            if (attachment.frames[f][v] > 0)
-                rig.frameShares.push_back({f, static_cast<float>(attachment.frames[f][v])});
+        for (std::uint32_t f = 0; f < rig.frames; ++f) {
+            if (!(attachment.frames[f][v] > 0)) continue;
+            rig.frameShares.push_back({f, static_cast<float>(attachment.frames[f][v])});
+            mark(rig.frameBlocks[f]);
+        }
         rig.pulls.endList();
         rig.frameShares.endList();
     }
 }
 
-double largestRadius(const Table& table) {
-    double radius = 0;
-    for (const Sphere& s : table.a) radius = std::max(radius, s.radius);
-    return radius;
-}
-
 } // namespace
 
-TriangleMesh meshOf(const std::vector<Move>& vertices, const std::vector<Tri>& triangles) {
-    TriangleMesh mesh{{}, triangles};
-    for (const Move& x : vertices) mesh.vertices.push_back(x.head<3>().cast<double>());
-    return mesh;
+std::vector<Vec3> placesOf(const std::vector<Move>& vertices) {
+    std::vector<Vec3> places;
+    for (const Move& x : vertices) places.push_back(x.head<3>().cast<double>());
+    return places;
 }
 
 Pose SkinRig::local(const Pose& pose) const {
@@ -226,10 +209,10 @@ Pose SkinRig::local(const Pose& pose) const {
 }
 
 std::size_t SkinRig::bytes() const {
-    std::size_t sum =
-        foundation.bytes() + rows.size() * sizeof(SkinRow) + clearances.size() * sizeof(SkinClearance) +
-        pulls.bytes() + frameShares.bytes() + rings.bytes() + nodeBlocks.bytes() + around.bytes() +
-        vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) + 2 * triangles.size() * sizeof(Tri);
+    std::size_t sum = foundation.bytes() + rows.size() * sizeof(SkinRow) + clearances.size() * sizeof(Move) +
+                      pulls.bytes() + frameShares.bytes() + rings.bytes() + nodeBlocks.bytes() +
+                      around.bytes() + vertices.size() * (2 * sizeof(Vec3) + 2 * sizeof(Move)) +
+                      2 * triangles.size() * sizeof(Tri);
     for (const SkinBody& body : bodies)
         sum += (body.rest.size() + body.places.size() + body.normals.size()) * sizeof(Move) +
                2 * body.triangles.size() * sizeof(Tri);
@@ -248,7 +231,9 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     rig.size = anatomy.size;
     rig.inverted = anatomy.inverted;
     rig.centre = anatomy.centre;
-    rig.radius = static_cast<float>(std::max(largestRadius(table.table), 1e-3 * rig.size) / rig.size);
+    double radius = 1e-3 * rig.size;
+    for (const Sphere& s : table.table.a) radius = std::max(radius, s.radius);
+    rig.radius = static_cast<float>(radius / rig.size);
     const SkinAttachment attachment = attachSkin(anatomy, parameters);
     addBodyRows(rig, anatomy, table);
     std::vector<std::uint32_t> pushed;
@@ -257,10 +242,10 @@ std::shared_ptr<const SkinRig> makeSkinRig(const TriangleMesh& skin,
     addTriangles(rig, anatomy.skin, indexOf);
     addBodies(rig, anatomy, framesOf(anatomy, parameters));
     addShares(rig, attachment);
-    addBlocks(rig);
+    rig.around = blocksAround(rig);
     if (rig.rest.empty()) return result;
     const std::vector<bool> mayBePushed = addRows(rig, indexOf);
-    const TriangleMesh local = meshOf(rig.places, rig.triangles);
+    const TriangleMesh local{placesOf(rig.places), rig.triangles};
     std::vector<double> firmness;
     for (const std::uint32_t v : rig.vertices) firmness.push_back(attachment.firmness[v]);
     rig.foundation = skinFoundation(local, skinGraph(local), mayBePushed, firmness, anatomy.length / rig.size,

@@ -54,18 +54,6 @@ enum class SkinContactKind : std::uint8_t {
     SkinOnSkin, ///< a skin vertex against another part of the skin
 };
 
-/// Where a row's vertex is against one start of the row at one node of its muscle's activation, everything
-/// else at rest: it lets mayTouch() rule out contact without a query.
-struct SkinClearance {
-    /// x, y, z: offset from the start to the vertex. w: gap of the row, with its first start; while the
-    /// offset from no start differs by more than a share of it, here or between this node and the next, the
-    /// two sides do not touch.
-    Move offsetAndGap = Move::Zero();
-
-    float gap() const { return offsetAndGap[3]; }
-    float& gap() { return offsetAndGap[3]; }
-};
-
 /// A possible contact of a vertex with a surface. Queries start from triangles tabulated here rather than
 /// from the last result, so that the response has no history.
 struct SkinRow {
@@ -120,8 +108,12 @@ struct SkinRig {
     Lists<SkinFrameShare> frameShares;                   ///< per vertex
     std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames: blocks that each moves
     std::vector<SkinRow> rows;                           ///< all possible contacts
-    std::vector<SkinClearance> clearances;               ///< of the rows
-    std::vector<int> starts;                             ///< start triangles of the rows' queries
+    /// Of the rows: where the vertex is against one start of the row at one node of its muscle's activation,
+    /// everything else at rest, so that mayTouch() rules out contact without a query. x, y, z: offset from
+    /// the start to the vertex. w, with the row's first start: gap of the row; while the offset from no start
+    /// differs by more than a share of it, here or between this node and the next, the two do not touch.
+    std::vector<Move> clearances;
+    std::vector<int> starts; ///< start triangles of the rows' queries
     SkinFoundation foundation;
     Lists<std::uint32_t> nodeBlocks; ///< per node of it: blocks that it moves
 

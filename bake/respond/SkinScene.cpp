@@ -62,16 +62,15 @@ void turn(const SkinRig& rig, SkinScene& scene, std::size_t v) {
     const std::optional<Pose> pose = blendedPose(rig, scene, v);
     scene.skinNormals[v] = rig.placeNormals[v];
     if (!pose) return;
-    const auto both = [](auto& x, const auto& moved) { x.template head<3>() = moved.template cast<float>(); };
-    both(scene.carried[v], *pose * scene.carried[v].head<3>().cast<double>());
-    both(scene.skinNormals[v], pose->linear() * rig.placeNormals[v].head<3>().cast<double>());
+    Move &place = scene.carried[v], &normal = scene.skinNormals[v];
+    place.head<3>() = (*pose * place.head<3>().cast<double>()).cast<float>();
+    normal.head<3>() = (pose->linear() * normal.head<3>().cast<double>()).cast<float>();
 }
 
 /// turns: whether bones turn skin, or have at the last update.
 void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<const Vec3> shift,
                 SkinScene& scene) {
-    const std::size_t first = block * SkinRig::block,
-                      last = std::min(first + SkinRig::block, rig.places.size());
+    const auto [first, last] = rig.verticesOf(block);
     // Plain pointers let the compiler assume that writing positions changes no size or pointer.
     const Move *rest = rig.places.data(), *moves = scene.moves.data();
     Move* carried = scene.carried.data();

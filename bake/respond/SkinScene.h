@@ -20,6 +20,11 @@ struct SkinScene {
         Eigen::Vector3f toBody(const Eigen::Vector3f& x) const {
             return moved ? turn.transpose() * (x - shift) : x;
         }
+        /// Of directions.
+        Eigen::Vector3f turned(const Eigen::Vector3f& x) const { return moved ? turn * x : x; }
+        Eigen::Vector3f turnedBack(const Eigen::Vector3f& x) const {
+            return moved ? turn.transpose() * x : x;
+        }
     };
     std::vector<Placed> bodies;
     std::vector<Pose> local;       ///< #bodies: motions since rest, run-time lengths
