@@ -109,44 +109,54 @@ private:
         return skin_.now().areaNormal(static_cast<std::size_t>(near.triangle)).normalized();
     }
 
-    /// What is asked about at a time, of one body or of the skin: mostly neighbours.
-    static constexpr std::size_t groupSize = SkinRig::block;
-    template <class Each>
-    static void eachGroup(std::size_t count, const Each& each) {
-        parallelFor((count + groupSize - 1) / groupSize, [&](std::size_t group) {
-            each(group * groupSize, std::min(count, (group + 1) * groupSize));
+    /// What triangles a vertex may meet: those that face so, within reach of it or of its way.
+    struct Asked {
+        Vec3 x, facing;
+        bool onlyChanged = false;   ///< it has not moved since rest: it meets nothing new but what has
+        const Vec3* move = nullptr; ///< null: where it is alone
+    };
+
+    /// Calls find(v, askedOf(v)) for those of `count` vertices that may find something, many at a time:
+    /// mostly neighbours.
+    template <class AskedOf, class Find>
+    void eachNear(std::size_t count, const AskedOf& askedOf, const Find& find) {
+        constexpr std::size_t most = SkinRig::block;
+        parallelFor((count + most - 1) / most, [&](std::size_t g) {
+            MovingTriangles::Group group;
+            if (atRest_) group.facings.extend(Vec3(0, 0, 0));
+            bool onlyChanged = true;
+            std::vector<Asked> asked;
+            for (std::size_t v = g * most; v < std::min(count, (g + 1) * most); ++v) {
+                const Asked& one = asked.emplace_back(askedOf(v));
+                group.places.extend(one.x);
+                group.facings.extend(one.facing);
+                if (one.move) group.moves.extend(*one.move);
+                onlyChanged = onlyChanged && one.onlyChanged;
+            }
+            if (!skin_.mayMeet(group, reach_, onlyChanged)) return;
+            for (std::size_t k = 0; k < asked.size(); ++k) find(g * most + k, asked[k]);
         });
     }
 
-    /// Body vertices that come near to the skin above them. What has not moved since rest meets nothing new
-    /// but skin that has.
+    /// Body vertices that come near to the skin above them.
     void findBodyContacts() {
         for (std::size_t m = 0; m < rig_.bodies.size(); ++m) {
             const SkinBody& body = rig_.bodies[m];
             const SkinScene::Placed& now = scene_.bodies[m];
             const bool still = !atRest_ && now.activation == 0 && !now.moved && isAtRest(now.bones);
-            eachGroup(body.count, [&](std::size_t first, std::size_t last) {
-                MovingTriangles::Group group;
-                if (atRest_) group.facings.extend(Vec3(0, 0, 0));
-                for (std::size_t v = body.first + first; v < body.first + last; ++v) {
-                    group.places.extend(placeOf(now, v));
-                    group.facings.extend(facingOf(now, v));
-                }
-                if (!skin_.mayMeet(group, reach_, still)) return;
-                for (std::size_t v = body.first + first; v < body.first + last; ++v)
-                    findBodyContact(body, still, v, placeOf(now, v), facingOf(now, v));
+            const auto askedOf = [&](std::size_t k) {
+                const Move &x = scene_.surface[body.first + k], &normal = scene_.normals[body.first + k];
+                return Asked{now.toSkin(x.head<3>()).cast<double>(),
+                             (now.turn * normal.head<3>()).cast<double>(), still};
+            };
+            eachNear(body.count, askedOf, [&](std::size_t k, const Asked& asked) {
+                findBodyContact(body, body.first + k, asked);
             });
         }
     }
 
-    Vec3 placeOf(const SkinScene::Placed& body, std::size_t v) const {
-        return body.toSkin(scene_.surface[v].head<3>()).cast<double>();
-    }
-    Vec3 facingOf(const SkinScene::Placed& body, std::size_t v) const {
-        return (body.turn * scene_.normals[v].head<3>()).cast<double>();
-    }
-
-    void findBodyContact(const SkinBody& body, bool still, std::size_t v, const Vec3& x, const Vec3& own) {
+    void findBodyContact(const SkinBody& body, std::size_t v, const Asked& asked) {
+        const Vec3& x = asked.x;
         std::vector<int>& found = found_.bodies[v];
         if (found_.outside[v] || stickingOut_[v]) return;
         if (atRest_ && !body.bone()) {
@@ -157,8 +167,8 @@ private:
                 return;
             }
         }
-        if (own.isZero(0)) return;
-        const NearestPoint near = skin_.nearest(x, own, reach_, still);
+        if (asked.facing.isZero(0)) return;
+        const NearestPoint near = skin_.nearest(x, asked.facing, reach_, asked.onlyChanged);
         if (near.triangle < 0) return;
         if (normalOf(near).dot(near.point - x) < -depth_) {
             if (atRest_) stickingOut_[v] = 1;
@@ -178,31 +188,22 @@ private:
 
     /// Skin vertices that come near to another part of the skin.
     void findFolds() {
-        eachGroup(rig_.places.size(), [&](std::size_t first, std::size_t last) {
-            MovingTriangles::Group group;
-            bool still = !atRest_;
-            for (std::size_t v = first; v < last; ++v) {
-                group.places.extend(skin_.now().vertices[v]);
-                group.facings.extend(Vec3(-scene_.normalOf(v).cast<double>()));
-                group.moves.extend(skin_.moveOf(v));
-                still = still && !skin_.changed(v);
-            }
-            if (!skin_.mayMeet(group, reach_, still)) return;
-            for (std::size_t v = first; v < last; ++v) findFold(v);
-        });
+        const auto askedOf = [&](std::size_t v) {
+            return Asked{skin_.now().vertices[v], -scene_.normalOf(v).cast<double>(),
+                         !atRest_ && !skin_.changed(v), &skin_.moveOf(v)};
+        };
+        eachNear(rig_.places.size(), askedOf, [&](std::size_t v, const Asked& a) { findFold(v, a); });
     }
 
-    void findFold(std::size_t v) {
-        const Vec3 own = scene_.normalOf(v).cast<double>();
-        const Vec3& x = skin_.now().vertices[v];
-        if (own.isZero(0)) return;
-        const bool still = !atRest_ && !skin_.changed(v);
-        const auto near = skin_.nearest(x, -own, reach_, still, &skin_.moveOf(v));
+    void findFold(std::size_t v, const Asked& asked) {
+        if (asked.facing.isZero(0)) return;
+        const Vec3& x = asked.x;
+        const auto near = skin_.nearest(x, asked.facing, reach_, asked.onlyChanged, asked.move);
         if (near.triangle < 0 || (rig_.triangles[near.triangle].array() == static_cast<int>(v)).any()) return;
         // In front of the triangle, and the triangle in front of the vertex: not the back of its own
         // layer.
         if (normalOf(near).dot(x - near.point) < -depth_ - near.half ||
-            own.dot(near.point - x) < -depth_ - near.half)
+            asked.facing.dot(x - near.point) < -depth_ - near.half)
             return;
         addOnce(near.triangle, found_.folds[v]);
     }

@@ -128,10 +128,6 @@ Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
 
 } // namespace
 
-std::size_t SkinFoundation::bytes() const {
-    return weights.bytes() + columns.bytes();
-}
-
 SkinFoundation skinFoundation(const TriangleMesh& skin, const SkinGraph& graph,
                               const std::vector<bool>& pushed, const std::vector<double>& firmness,
                               double length, double stretchCompliance, double bendCompliance) {

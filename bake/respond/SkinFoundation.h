@@ -27,7 +27,7 @@ struct SkinFoundation {
     Lists<SkinEntry> columns; ///< per node: column of the inverse over nodes, scaled so that the largest
                               ///< entry of all is 1; empty for nodes that nothing pushes
 
-    std::size_t bytes() const;
+    std::size_t bytes() const { return weights.bytes() + columns.bytes(); }
 };
 
 /// pushed: #V, whether a contact may push the vertex. firmness: #V, >= 1, factors on the foundation. length:

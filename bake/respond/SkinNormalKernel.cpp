@@ -89,11 +89,11 @@ HWY_INLINE bool finish(V sum, float outward, float* out) {
 }
 #endif
 
-bool normals(const SkinNormalQuestion& question, std::size_t first, std::size_t last, float* out) {
-    const float* places = question.places;
+bool normals(const Lists<std::uint32_t>& rings, const float* places, float outward, std::size_t first,
+             std::size_t last, float* out) {
     bool all = true;
     for (std::size_t pair = first; pair < last; ++pair) {
-        const auto ring = question.rings[pair];
+        const auto ring = rings[pair];
         for (std::size_t k = 0; k < 2; k += together, out += 3 * together) {
             const V own = load(places + 8 * pair + 4 * k);
             V sum = own - own; // z, x, y
@@ -104,14 +104,10 @@ bool normals(const SkinNormalQuestion& question, std::size_t first, std::size_t 
                 sum = sum + (spoke * rotated(rim) - rotated(spoke) * rim);
                 before = next;
             }
-            all = finish(sum, question.outward, out) && all;
+            all = finish(sum, outward, out) && all;
         }
     }
     return all;
-}
-
-SkinNormalKernel kernel() {
-    return normals;
 }
 
 } // namespace
@@ -123,8 +119,8 @@ HWY_AFTER_NAMESPACE();
 namespace tss {
 
 SkinNormalKernel skinNormalKernel(KernelTarget target) {
-    TSS_TARGETS(kernel())
-    return HWY_STATIC_DISPATCH(kernel)(); // what this build may always use
+    TSS_TARGETS(normals)
+    return HWY_STATIC_DISPATCH(normals); // what this build may always use
 }
 
 } // namespace tss

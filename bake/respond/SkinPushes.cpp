@@ -38,17 +38,16 @@ void SkinPushes::addColumns(std::span<const SkinPlane> planes) {
     }
 }
 
-void SkinPushes::couple(std::uint32_t r, std::uint32_t s, float coupling) {
-    std::vector<Block>& row = rows_[r];
-    if (row.empty() || row.back().first != s / 4 * 4) row.emplace_back().first = s / 4 * 4;
-    row.back().coupling[s % 4] = coupling;
-}
-
 /// Computes the couplings of the new planes with all others that constrain a node they move.
 void SkinPushes::addCouplings() {
     const std::size_t count = weights_.size();
     couplings_.resize(count);
     rows_.resize(std::max(rows_.size(), count));
+    const auto couple = [&](std::uint32_t r, std::uint32_t s, float coupling) {
+        std::vector<Block>& row = rows_[r];
+        if (row.empty() || row.back().first != s / 4 * 4) row.emplace_back().first = s / 4 * 4;
+        row.back().coupling[s % 4] = coupling;
+    };
     for (std::uint32_t r = static_cast<std::uint32_t>(self_.size()); r < count; ++r) {
         for (const auto& [node, weight] : weights_[r]) nodePlanes_[node].push_back({r, weight});
         for (const auto& [node, move] : column_[r])

@@ -85,7 +85,6 @@ private:
         Four coupling = Four::Zero();
         Four matrix = Four::Zero(); ///< coupling times the cosine between both normals
     };
-    void couple(std::uint32_t r, std::uint32_t s, float coupling);
     void addColumns(std::span<const SkinPlane> planes);
     void addCouplings();
     void prepare(std::span<SkinPlane> planes, std::span<const Move> base);

@@ -54,14 +54,8 @@ SkinUpdate SkinResponse::update(std::span<const double> activations, std::span<c
         normals_ = rig_->restNormals;
         last_.contacts = 0;
         last_.pushed = 0;
-    } else {
-        deform();
-        show();
+        return last_;
     }
-    return last_;
-}
-
-void SkinResponse::deform() {
     SkinClock& clock = contacts_.clock;
     if (clock.costs != nullptr) ++clock.costs->updates;
     clock.start();
@@ -70,6 +64,9 @@ void SkinResponse::deform() {
     clock.charge(SkinPart::Carry);
     last_.contacts = contacts_.push(scene_);
     last_.pushed = last_.contacts > 0 ? rig_->size * static_cast<double>(contacts_.farthest()) : 0;
+    show();
+    clock.charge(SkinPart::Show);
+    return last_;
 }
 
 /// Copies the positions of a block to the output, scene units.
@@ -89,7 +86,7 @@ void SkinResponse::showNormals(std::size_t block) {
     const std::size_t first = block * SkinRig::block,
                       count = std::min(SkinRig::block, rig_->places.size() - first);
     float found[3 * SkinRig::block + 1];
-    const bool all = normalKernel_({rig_->rings, scene_.skin[0].data(), rig_->inverted ? -1.0f : 1.0f},
+    const bool all = normalKernel_(rig_->rings, scene_.skin[0].data(), rig_->inverted ? -1.0f : 1.0f,
                                    first / 2, (first + count + 1) / 2, found);
     double* normal = normals_[first].data();
     for (std::size_t k = 0; k < 3 * count; ++k) normal[k] = static_cast<double>(found[k]);
@@ -117,7 +114,6 @@ void SkinResponse::show() {
         positions_[v] = positions_[rig_->twins[k]];
         normals_[v] = normals_[rig_->twins[k]];
     }
-    contacts_.clock.charge(SkinPart::Show);
 }
 
 } // namespace tss

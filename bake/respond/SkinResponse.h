@@ -48,7 +48,6 @@ public:
 
 private:
     bool setShift(std::span<const Vec3> shift);
-    void deform();
     void showPlaces(std::size_t block);
     void showNormals(std::size_t block);
     void show();

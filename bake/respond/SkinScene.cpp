@@ -1,7 +1,6 @@
 #include "bake/respond/SkinScene.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace tss {
 namespace {
@@ -50,8 +49,8 @@ std::optional<Pose> blendedPose(const SkinRig& rig, const SkinScene& scene, std:
     PoseBlend blend;
     bool moves = false;
     for (const auto& [frame, share] : rig.frameShares[v])
-        if (!scene.atRest[frame]) {
-            blend.add(static_cast<double>(share), scene.frames[frame]);
+        if (const std::optional<DualPose>& pose = scene.frames[frame]) {
+            blend.add(static_cast<double>(share), *pose);
             moves = true;
         }
     return moves ? std::optional(blend.pose()) : std::nullopt;
@@ -92,7 +91,7 @@ void prepareScene(const SkinRig& rig, SkinScene& scene) {
     scene.live.assign(rig.blocks(), 0);
     scene.carried = scene.skin = rig.places;
     scene.skin.insert(scene.skin.end(), rig.borderPlaces.begin(), rig.borderPlaces.end());
-    scene.skin.push_back(Move::Zero()); // SkinNormalQuestion::places
+    scene.skin.push_back(Move::Zero()); // SkinNormalKernel
     scene.skinNormals = rig.placeNormals;
 }
 
@@ -101,8 +100,7 @@ void prepareScene(const SkinRig& rig, SkinScene& scene) {
 void placeBodies(const SkinRig& rig, std::span<const double> activations, std::span<const Pose> poses,
                  std::span<const Vec3> shift, SkinScene& scene) {
     if (scene.bodies.size() != rig.bodies.size()) prepareScene(rig, scene);
-    scene.frames.resize(rig.frames);
-    scene.atRest.assign(rig.frames, true);
+    scene.frames.assign(rig.frames, std::nullopt);
     // Bits of `live` in here: 1, the block was live at the last update; 2, it is now.
     const auto wake = [&](const std::vector<std::uint32_t>& blocks) {
         for (const std::uint32_t b : blocks) scene.live[b] |= 2;
@@ -118,12 +116,11 @@ void placeBodies(const SkinRig& rig, std::span<const double> activations, std::s
         if (!placed.moved) continue;
         placed.turn = scene.local[m].linear().cast<float>();
         placed.shift = scene.local[m].translation().cast<float>();
-        if (body.frame < 0 || !scene.atRest[body.frame]) continue;
+        if (body.frame < 0 || scene.frames[body.frame]) continue;
         scene.frames[body.frame] = DualPose(scene.local[m]);
-        scene.atRest[body.frame] = false;
         wake(rig.frameBlocks[body.frame]);
     }
-    const bool turns = std::find(scene.atRest.begin(), scene.atRest.end(), false) != scene.atRest.end();
+    const bool turns = std::ranges::any_of(scene.frames, [](const auto& pose) { return pose.has_value(); });
     for (std::size_t b = 0; b < scene.live.size(); ++b) {
         if (!shift.empty()) scene.live[b] |= 2;
         if (scene.live[b] != 0) placeBlock(rig, b, turns || scene.turned, shift, scene);

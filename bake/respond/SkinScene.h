@@ -1,6 +1,7 @@
 #pragma once
 #include "bake/respond/SkinRig.h"
 
+#include <optional>
 #include <span>
 
 namespace tss {
@@ -27,12 +28,11 @@ struct SkinScene {
         }
     };
     std::vector<Placed> bodies;
-    std::vector<Pose> local;       ///< #bodies: motions since rest, run-time lengths
-    std::vector<DualPose> frames;  ///< #frames: motion since rest; unset where atRest
-    std::vector<bool> atRest;      ///< #frames
-    bool turned = false;           ///< some frame is not at rest
-    std::vector<Move> surface;     ///< vertices of all bodies, in the bodies' rest frames
-    std::vector<Move> normals;     ///< of these vertices, unit
+    std::vector<Pose> local;                     ///< #bodies: motions since rest, run-time lengths
+    std::vector<std::optional<DualPose>> frames; ///< #frames: motion since rest; none: at rest
+    bool turned = false;                         ///< some frame is not at rest
+    std::vector<Move> surface;                   ///< vertices of all bodies, in the bodies' rest frames
+    std::vector<Move> normals;                   ///< of these vertices, unit
     std::vector<Move> moves;       ///< displacement of these vertices since rest by contraction and swelling
     std::vector<char> live;        ///< #blocks: something that moves it is not at rest
     std::vector<Move> carried;     ///< #touched: skin as muscles and bones carry it, before contact

@@ -35,7 +35,7 @@ float partLeft(const Edges& carried, const Edges& now, const Eigen::Vector3f& no
 
 } // namespace
 
-SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig) {
+SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig), wishes_(rig.foundation.nodes, {}) {
     firstOf_.assign(rig.blocks() + 1, 0);
     for (const Tri& t : rig.triangles)
         ++firstOf_[static_cast<std::size_t>(t.minCoeff()) / SkinRig::block + 1];
@@ -65,7 +65,6 @@ void SkinTurnLimit::findTriangles(const SkinScene& scene, const SkinPushes& push
 /// What the nodes of triangles that are turned over have to do. gathers: to come nearer to the displacements
 /// beside them, the larger the more; else to none.
 void SkinTurnLimit::findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers) {
-    wishes_.clear();
     for (const Beside& beside : beside_) {
         const Edges now = edgesOf(scene.skin, beside.corners);
         const float least = leastShare * beside.area;
@@ -86,30 +85,24 @@ void SkinTurnLimit::findWishes(const SkinScene& scene, const SkinPushes& pushes,
             sum += weight * move.squaredNorm();
         });
         to *= gathers && sum > 0 ? 1 / sum : 0;
-        eachNode([&](std::uint32_t node, float) { wishes_.push_back({node, part, to}); });
+        eachNode([&](std::uint32_t node, float) {
+            Wish& wish = wishes_[node];
+            wish.to += (1 - part) * to;
+            wish.sum += 1 - part;
+            wish.part = std::min(wish.part, part);
+        });
     }
-    std::ranges::stable_sort(wishes_, {}, &Wish::node);
 }
 
 bool SkinTurnLimit::limit(SkinScene& scene, SkinPushes& pushes) {
     for (int round = 0; round < mostGathering + mostLowering; ++round) {
         if (round <= mostGathering) findTriangles(scene, pushes); // gathering displaces more of them
         findWishes(scene, pushes, round < mostGathering);
-        if (wishes_.empty()) return round > 0;
-        for (auto first = wishes_.begin(); first != wishes_.end();) {
-            Move to = Move::Zero();
-            float part = 1, sum = 0;
-            auto last = first;
-            for (; last != wishes_.end() && last->node == first->node; ++last) {
-                to += (1 - last->part) * last->to;
-                sum += 1 - last->part;
-                part = std::min(part, last->part);
-            }
-            if (sum > 0) to /= sum;
-            const Move now = pushes.nodeMove(first->node);
-            pushes.moveNode(first->node, to + part * (now - to));
-            first = last;
-        }
+        if (wishes_.places().empty()) return round > 0;
+        wishes_.take([&](std::uint32_t node, const Wish& wish) {
+            const Move to = wish.sum > 0 ? Move(wish.to / wish.sum) : wish.to, now = pushes.nodeMove(node);
+            pushes.moveNode(node, to + wish.part * (now - to));
+        });
         pushes.displace(scene);
     }
     return true;

@@ -25,11 +25,11 @@ private:
             Eigen::Vector3f::Zero(); ///< unit, at rest, turned as bones turn its first corner
         float area = 0;              ///< as carried, seen along the normal
     };
-    /// A node at a triangle that pushes would turn over.
+    /// What the triangles at a node that pushes would turn over ask of it.
     struct Wish {
-        std::uint32_t node = 0;
-        float part = 1;         ///< of the differences between displacements that the triangle can stand
-        Move to = Move::Zero(); ///< what displacements come nearer to
+        float part = 1;         ///< of the differences between displacements that all of them can stand
+        float sum = 0;          ///< of 1 - part over the triangles
+        Move to = Move::Zero(); ///< sum of what they bring the displacement nearer to, each times 1 - part
     };
     void findTriangles(const SkinScene& scene, const SkinPushes& pushes);
     void findWishes(const SkinScene& scene, const SkinPushes& pushes, bool gathers);
@@ -37,8 +37,8 @@ private:
     const SkinRig& rig_;
     std::vector<Beside> beside_;
     std::vector<std::uint32_t> firstOf_; ///< #blocks + 1: first of the triangles whose first corner is in it
-    std::vector<char> near_; ///< #blocks: first corners of triangles at displaced vertices are in it
-    std::vector<Wish> wishes_;
+    std::vector<char> near_;  ///< #blocks: first corners of triangles at displaced vertices are in it
+    SparseSums<Wish> wishes_; ///< over nodes
 };
 
 } // namespace tss

@@ -51,8 +51,8 @@ TEST_CASE("the normals of a skin are those by area, and the same bits by every k
         if (!available(target)) continue;
         CAPTURE(name(target));
         std::vector<float> normals(3 * (2 * rings.size()) + 1, 9);
-        const SkinNormalQuestion question{rings, places[0].data(), -1};
-        CHECK_FALSE(skinNormalKernel(target)(question, 0, rings.size(), normals.data()));
+        const SkinNormalKernel kernel = skinNormalKernel(target);
+        CHECK_FALSE(kernel(rings, places[0].data(), -1, 0, rings.size(), normals.data()));
         std::size_t without = 0;
         for (std::size_t v = 0; v < count; ++v) {
             const Vec3 normal = Eigen::Vector3f::Map(&normals[3 * v]).cast<double>();
@@ -61,7 +61,7 @@ TEST_CASE("the normals of a skin are those by area, and the same bits by every k
             without += normal.isZero(0);
         }
         CHECK(without >= 4);
-        CHECK(skinNormalKernel(target)(question, 0, 20, normals.data()));
+        CHECK(kernel(rings, places[0].data(), -1, 0, 20, normals.data()));
         normals.resize(3 * count);
         if (first.empty()) first = normals;
         CHECK(normals == first);
