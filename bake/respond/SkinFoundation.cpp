@@ -113,9 +113,8 @@ void symmetrise(Columns& columns) {
 /// The columns of the nodes that are needed.
 Columns solveColumns(const SparseMatrix& sheet, const std::vector<Vec3>& places,
                      const std::vector<bool>& needed, double reach) {
-    std::vector<std::uint32_t> wanted;
-    for (const std::uint32_t n : alongCurve(places))
-        if (needed[n]) wanted.push_back(n);
+    std::vector<std::uint32_t> wanted = alongCurve(places);
+    std::erase_if(wanted, [&](std::uint32_t n) { return !needed[n]; });
     Columns columns(places.size());
     const std::size_t patches = (wanted.size() + nodesAPatch - 1) / nodesAPatch;
     parallelFor(patches, [&](std::size_t p) {

@@ -4,7 +4,7 @@
 
 namespace tss {
 
-/// An entry of a sparse row or column: a node or a vertex, and its coefficient.
+/// An entry of a sparse row or column: the index of a node, a vertex or the like, and its coefficient.
 struct SkinEntry {
     std::uint32_t index = 0;
     float value = 0;

@@ -35,18 +35,6 @@ struct SkinBody {
     bool bone() const { return mesh != nullptr; }
 };
 
-/// A body's vertex whose displacement is added to that of a skin vertex, times a share.
-struct SkinPull {
-    std::uint32_t from = 0; ///< index among the vertices of all bodies
-    float share = 0;
-};
-
-/// A frame's skinning weight in a vertex.
-struct SkinFrameShare {
-    std::uint32_t frame = 0;
-    float share = 0;
-};
-
 /// The two sides of a possible contact: a vertex against a surface.
 enum class SkinContactKind : std::uint8_t {
     SkinOnBody, ///< a skin vertex against a body's surface
@@ -103,9 +91,10 @@ struct SkinRig {
     Lists<std::uint32_t> around; ///< per block: the blocks whose normals depend on it, itself included
     std::vector<SkinBody> bodies;
     std::size_t bodyVertices = 0; ///< of all bodies together
-    Lists<SkinPull> pulls;        ///< per vertex
+    Lists<SkinEntry> pulls; ///< per vertex: of all bodies' vertices those whose displacements are added to
+                            ///< its own, and by what share
     std::size_t frames = 0;
-    Lists<SkinFrameShare> frameShares;                   ///< per vertex
+    Lists<SkinEntry> frameShares;                        ///< per vertex: frames and their skinning weights
     std::vector<std::vector<std::uint32_t>> frameBlocks; ///< #frames: blocks that each moves
     std::vector<SkinRow> rows;                           ///< all possible contacts
     /// Of the rows: where the vertex is against one start of the row at one node of its muscle's activation,

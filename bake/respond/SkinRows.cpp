@@ -111,10 +111,7 @@ void addBodyRows(SkinRig& rig, const SkinAnatomy& anatomy, const SkinTable& tabl
     for (std::size_t i = 0; i < t.a.size(); ++i)
         for (std::uint32_t k = t.rowOffsets[i]; k < t.rowOffsets[i + 1]; ++k)
             known.emplace(anatomy.first[table.skinVertices[i]], table.muscleOf[t.columns[k]]);
-    for (const auto& [vertex, body] : known) {
-        rows.emplace_back().vertex = vertex;
-        rows.back().body = body;
-    }
+    for (const auto& [vertex, body] : known) rows.push_back({.vertex = vertex, .body = body});
     std::vector<int> start(rows.size(), -1);
     parallelFor(rows.size(), [&](std::size_t k) {
         SkinRow& row = rows[k];

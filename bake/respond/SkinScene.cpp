@@ -75,7 +75,7 @@ void placeBlock(const SkinRig& rig, std::size_t block, bool turns, std::span<con
     Move* carried = scene.carried.data();
     for (std::size_t v = first; v < last; ++v) {
         Move sum = Move::Zero();
-        for (const SkinPull& pull : rig.pulls[v]) sum += pull.share * moves[pull.from];
+        for (const auto& [from, share] : rig.pulls[v]) sum += share * moves[from];
         carried[v] = rest[v] + sum;
     }
     for (std::size_t v = first; v < last && !shift.empty(); ++v)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tss {
 namespace {
@@ -35,30 +34,15 @@ float partLeft(const Edges& carried, const Edges& now, const Eigen::Vector3f& no
 
 } // namespace
 
-SkinTurnLimit::SkinTurnLimit(const SkinRig& rig) : rig_(rig), wishes_(rig.foundation.nodes, {}) {
-    firstOf_.assign(rig.blocks() + 1, 0);
-    for (const Tri& t : rig.triangles)
-        ++firstOf_[static_cast<std::size_t>(t.minCoeff()) / SkinRig::block + 1];
-    std::partial_sum(firstOf_.begin(), firstOf_.end(), firstOf_.begin());
-}
-
 void SkinTurnLimit::findTriangles(const SkinScene& scene, const SkinPushes& pushes) {
-    near_.assign(rig_.blocks(), 0);
-    for (std::size_t b = 0; b < near_.size(); ++b)
-        if (pushes.reaches(b))
-            for (const std::uint32_t around : rig_.around[b]) near_[around] = 1;
     beside_.clear();
-    for (std::size_t b = 0; b < near_.size(); ++b) {
-        if (near_[b] == 0) continue;
-        for (std::uint32_t t = firstOf_[b]; t < firstOf_[b + 1]; ++t) {
-            const Tri& corners = rig_.triangles[t];
-            if (std::ranges::none_of(corners, [&](int v) { return pushes.displaced(v); })) continue;
-            const Edges edges = edgesOf(scene.carried, corners), rest = edgesOf(rig_.places, corners);
-            const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
-                                           rest.first.cross(rest.second).normalized();
-            const float area = normal.dot(edges.first.cross(edges.second));
-            if (area > 0) beside_.push_back({corners, normal, area});
-        }
+    for (const Tri& corners : rig_.triangles) {
+        if (std::ranges::none_of(corners, [&](int v) { return pushes.displaced(v); })) continue;
+        const Edges edges = edgesOf(scene.carried, corners), rest = edgesOf(rig_.places, corners);
+        const Eigen::Vector3f normal = turnOf(rig_, scene, static_cast<std::size_t>(corners[0])) *
+                                       rest.first.cross(rest.second).normalized();
+        const float area = normal.dot(edges.first.cross(edges.second));
+        if (area > 0) beside_.push_back({corners, normal, area});
     }
 }
 

@@ -11,7 +11,7 @@ namespace tss {
 class SkinTurnLimit {
 public:
     /// Keeps a reference to the rig.
-    explicit SkinTurnLimit(const SkinRig& rig);
+    explicit SkinTurnLimit(const SkinRig& rig) : rig_(rig), wishes_(rig.foundation.nodes, {}) {}
 
     /// Limits the displacements that pushes have just applied to the skin of a scene. Returns whether any has
     /// changed.
@@ -36,8 +36,6 @@ private:
 
     const SkinRig& rig_;
     std::vector<Beside> beside_;
-    std::vector<std::uint32_t> firstOf_; ///< #blocks + 1: first of the triangles whose first corner is in it
-    std::vector<char> near_;  ///< #blocks: first corners of triangles at displaced vertices are in it
     SparseSums<Wish> wishes_; ///< over nodes
 };
 
