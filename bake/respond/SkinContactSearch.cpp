@@ -147,7 +147,7 @@ private:
             const auto askedOf = [&](std::size_t k) {
                 const Move &x = scene_.surface[body.first + k], &normal = scene_.normals[body.first + k];
                 return Asked{now.toSkin(x.head<3>()).cast<double>(),
-                             (now.turn * normal.head<3>()).cast<double>(), still};
+                             now.turned(normal.head<3>()).cast<double>(), still};
             };
             eachNear(body.count, askedOf, [&](std::size_t k, const Asked& asked) {
                 findBodyContact(body, body.first + k, asked);

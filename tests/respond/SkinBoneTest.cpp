@@ -153,6 +153,30 @@ TEST_CASE("where every bone moves, skin within half a bone's size of them goes a
     CHECK(behind < 0.05 * static_cast<double>(skin.vertices.size()));
 }
 
+TEST_CASE("a bone that another joint has left at rest is met by its own front, whatever was tried before") {
+    const TriangleMesh skin = skins::vaultedSheet(32, 1, 0.2, 0);
+    const std::vector<std::shared_ptr<const MuscleDeformer>> bones{
+        skins::boneOf(boxMesh({-0.4, -0.4, -0.6}, {0.4, 0.4, 0})),
+        skins::boneOf(boxMesh({0.7, -0.1, -0.6}, {0.9, 0.1, 0}))};
+    // The skin follows the second bone, down to just before the first one, which may turn upside down.
+    const Pose turned(Eigen::Translation3d(0, 0, -0.3) * Eigen::AngleAxisd(M_PI, Vec3::UnitX()) *
+                      Eigen::Translation3d(0, 0, 0.3)),
+        lowered(Eigen::Translation3d(0, 0, -0.196));
+    const BoneSwing turn{{turned, Pose::Identity()}}, lower{{Pose::Identity(), lowered}};
+    const auto metWith = [&](std::vector<BoneSwing> swings) {
+        SkinParameters parameters;
+        parameters.swings = std::move(swings);
+        parameters.shares = {std::vector<double>(skin.vertices.size(), 0),
+                             std::vector<double>(skin.vertices.size(), 1)};
+        SkinTable nothingMet;
+        nothingMet.table.rowOffsets = {0};
+        const auto rig = makeSkinRig(skin, bones, nothingMet, parameters);
+        return std::ranges::count_if(rig->rows, [](const SkinRow& row) { return row.body == 0; });
+    };
+    CHECK(metWith({lower}) == 4); // the corners of its upper side
+    CHECK(metWith({turn, lower}) == 4);
+}
+
 TEST_CASE("a vertex of no triangle changes nothing of a skin") {
     TriangleMesh skin = revolved({{1, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}, {0.5, 6}}, 16);
     const std::vector<std::shared_ptr<const MuscleDeformer>> bones{
