@@ -179,6 +179,8 @@ void make(MakeArguments& arguments, const CLI::App& command, const Console& cons
         if (!arguments.upAxis.empty()) arguments.robot.upAxis = arguments.upAxis[0];
         if (isRigName(arguments.robot.input) && isRigName(arguments.motion))
             std::swap(arguments.robot.animation, arguments.motion);
+        if (!arguments.motion.empty() && arguments.robot.pairs == "near")
+            arguments.robot.pairs = "all"; // what comes near in the file's own animation says nothing of it
         return makeRobot(arguments.robot, arguments.motion, arguments.output, console);
     }
     arguments.pairs = arguments.robot.pairs;

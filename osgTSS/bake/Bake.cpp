@@ -4,7 +4,6 @@
 #include "osgTSS/src/EachNode.h"
 
 #include "bake/base/Error.h"
-#include "bake/base/Words.h"
 #include "bake/check/EarlyContact.h"
 #include "bake/model/Kinematics.h"
 #include "bake/motion/WholeTurn.h"
@@ -213,18 +212,11 @@ void setFirstLook(tss::SceneModel& model, const std::map<std::string, std::strin
                    << std::endl;
 }
 
-/// Of the bones of skeletons, which alone are pairs without a joint that ties them, those that the animation
-/// asks for.
-void leaveOutFar(tss::SceneModel& model) {
-    const tss::PairsLeftOut leftOut = tss::pairForAnimation(
-        model, [&](const tss::Pair& pair) { return !tss::tiesDirectly(model, pair); }, true);
-    if (!leftOut.held.empty())
-        OSG_NOTICE << "osgTSS: no pairs, for the animation has them in each other half of the time or more: "
-                   << tss::firstOf(leftOut.held, 10) << std::endl;
-    if (leftOut.far > 0)
-        OSG_NOTICE << "osgTSS: " << leftOut.far
-                   << " pairs of bones are left out that the animation never has "
-                   << "near each other; pairs=all keeps them" << std::endl;
+/// Bones of skeletons, which alone are pairs without a joint that ties them, are solid: cut out of one mesh,
+/// they swing into each other at the ends of their limits.
+void takeForSolid(tss::SceneModel& model) {
+    for (tss::Pair& pair : model.pairs)
+        if (!tss::tiesDirectly(model, pair)) pair.settings["inside"] = "contact";
 }
 
 /// A pair or skin that cannot be baked is shown as it moves, and the others are kept apart all the same.
@@ -293,7 +285,7 @@ osg::ref_ptr<Scene> bake(osg::Node& root, const BakeOptions& options, const Bake
     tss::optionsFor({}, options.settings, 1); // set in code: a wrong one is no pair's fault
     tagNodes(root, options);
     std::shared_ptr<tss::SceneModel> model = extract(root, options);
-    if (options.firstLook && options.pairs == BakeOptions().pairs) leaveOutFar(*model);
+    if (options.firstLook && options.pairs == BakeOptions().pairs) takeForSolid(*model);
     if (options.firstLook) setFirstLook(*model, options.settings);
     for (tss::Pair& pair : model->pairs)
         for (const auto& [key, value] : options.settings) pair.settings[key] = value;
