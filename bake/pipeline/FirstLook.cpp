@@ -30,15 +30,10 @@ double smallerDiagonal(const SceneModel& scene, const Pair& pair) {
 constexpr double usualShare = 1.0 / 30, roomShare = 0.3; ///< of the smaller diagonal, of the distance at rest
 constexpr double nearShare = usualShare / roomShare; ///< of that diagonal: from there on room does not count
 
-/// Of a character, whose skin is drawn in their place and bends otherwise than they.
-bool areBones(const SceneModel& scene, const Pair& pair) {
-    return !scene.bodies[pair.bodyA].visible && !scene.bodies[pair.bodyB].visible;
-}
-
 /// The tolerance of a first look at a pair whose meshes are so far apart at rest, scene units.
 double firstTolerance(const SceneModel& scene, const Pair& pair, double distance) {
     const double smaller = smallerDiagonal(scene, pair);
-    if (areBones(scene, pair)) return usualShare * smaller;
+    if (areBones(scene, pair.bodyA, pair.bodyB)) return usualShare * smaller; // the skin bends otherwise
     if (!(distance > 0)) return smaller / 100;
     if (isLongChain(scene, pair)) return usualShare * smaller;
     return std::max(std::min(usualShare * smaller, roomShare * distance), smaller / 500);
@@ -126,15 +121,19 @@ std::vector<MotionContact> contactsInMotion(const SceneModel& scene,
     return contacts;
 }
 
-PairsLeftOut pairForAnimation(SceneModel& scene, const AreBones& areBones, bool near) {
+bool areBones(const SceneModel& scene, int bodyA, int bodyB) {
+    return !scene.bodies[bodyA].visible && !scene.bodies[bodyB].visible;
+}
+
+PairsLeftOut pairForAnimation(SceneModel& scene, bool near) {
     std::vector<std::pair<int, int>> bones;
     for (const Pair& pair : scene.pairs)
-        if (areBones(pair)) bones.emplace_back(pair.bodyA, pair.bodyB);
+        if (areBones(scene, pair.bodyA, pair.bodyB)) bones.emplace_back(pair.bodyA, pair.bodyB);
     const std::vector<MotionContact> contacts = contactsInMotion(scene, bones);
     PairsLeftOut leftOut;
     std::size_t next = 0;
     std::erase_if(scene.pairs, [&](Pair& pair) {
-        if (!areBones(pair)) return false;
+        if (!areBones(scene, pair.bodyA, pair.bodyB)) return false;
         const MotionContact& contact = contacts[next++];
         const bool far = near && !contact.near;
         if (contact.holds())

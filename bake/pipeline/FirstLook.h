@@ -1,7 +1,6 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -30,8 +29,8 @@ struct MotionContact {
 std::vector<MotionContact> contactsInMotion(const SceneModel& scene,
                                             std::span<const std::pair<int, int>> bodies);
 
-/// Which pairs are of two bones of a character.
-using AreBones = std::function<bool(const Pair& pair)>;
+/// Two bodies of a character, whose skin is drawn in their place.
+bool areBones(const SceneModel& scene, int bodyA, int bodyB);
 
 /// What pairForAnimation() left out.
 struct PairsLeftOut {
@@ -43,7 +42,7 @@ struct PairsLeftOut {
 /// half of the time or more: they would hold it all along, for what is cut out of one mesh lies in each other
 /// where it bends. With `near` not those either that it never has near each other. The others are solid
 /// (Inside::Contact): they swing into each other at the ends of their limits.
-PairsLeftOut pairForAnimation(SceneModel& scene, const AreBones& areBones, bool near);
+PairsLeftOut pairForAnimation(SceneModel& scene, bool near);
 
 /// A thirtieth of the median body diagonal, rounded to one digit in millimetres; scene units.
 double usualTolerance(const SceneModel& scene);

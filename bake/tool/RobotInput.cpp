@@ -112,23 +112,17 @@ MadeScene readUsdScene(const std::string& file, const Packages&, const RobotScen
 
 #endif
 
-} // namespace
-
-namespace {
-
 /// The pairs of a character, a scene with skins: see pairForAnimation(), also for what cannot be one.
 void pairBones(RobotScene& made, bool near) {
     SceneModel& scene = made.scene;
-    const auto isBone = [&](int body) { return !scene.bodies[body].visible; };
-    const PairsLeftOut leftOut = pairForAnimation(
-        scene, [&](const Pair& pair) { return isBone(pair.bodyA) && isBone(pair.bodyB); }, near);
+    const PairsLeftOut leftOut = pairForAnimation(scene, near);
     std::vector<std::pair<int, int>> unmade;
     for (const AllPairs::Unmade& none : made.unmade) unmade.emplace_back(none.bodyA, none.bodyB);
     const std::vector<MotionContact> contacts = contactsInMotion(scene, unmade);
     std::size_t next = 0;
     std::erase_if(made.unmade, [&](const AllPairs::Unmade& none) {
         const MotionContact& contact = contacts[next++];
-        return isBone(none.bodyA) && isBone(none.bodyB) && (contact.holds() || (near && !contact.near));
+        return areBones(scene, none.bodyA, none.bodyB) && (contact.holds() || (near && !contact.near));
     });
     if (!leftOut.held.empty())
         made.notes.push_back(
