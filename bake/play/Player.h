@@ -1,13 +1,13 @@
 #pragma once
 #include "bake/model/SceneModel.h"
 #include "bake/respond/JointStatus.h"
+#include "bake/respond/SkinFollowing.h"
 
 #include <memory>
 
 namespace tss {
 
 struct SkinCosts;
-struct SkinFollowing;
 
 /// A scene in motion: the joints kept out of collision, the skins deformed, as the node kit does it, step by
 /// step.
