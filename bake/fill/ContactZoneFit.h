@@ -28,7 +28,7 @@ struct ContactZoneOptions {
     /// coarser ones.
     std::optional<Nesting> nesting = {};
     bool solid = false; ///< openings count as closed whether or not the other body stands behind them
-    double effort = 1; ///< share of the usual limit of work for finding what comes near, in (0, 1]
+    double effort = 1;  ///< share of the usual limit of work for finding what comes near, in (0, 1]
     MedialOptions medial;
     std::shared_ptr<WholeFits> kept; ///< spheres of whole bodies; null: none are kept
     std::string pathA, pathB;        ///< prim paths of the bodies, by which they are

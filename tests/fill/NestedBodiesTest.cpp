@@ -128,8 +128,7 @@ TEST_CASE("over many DOFs a body of which that could not be decided is hollow: c
     CHECK(spheres.protrusions < 0.5);
 }
 
-TEST_CASE(
-    "where a body inside another counts as contact both are solid, and the bound is of how deep it is") {
+TEST_CASE("where a body inside another is contact both are solid, and the bound is of how deep it is") {
     Through through(-4, 4);
     through.motion.dofs[0].rest = 4;
     for (const bool opened : {false, true}) {
@@ -156,8 +155,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "over many DOFs a body inside another is no reason to take that one for hollow where it is contact") {
+TEST_CASE("over many DOFs a body inside another makes none hollow where it is contact") {
     Through through(-4, 12);
     through.motion.dofs[0].rest = 12; // not inside at rest, which is no contact whatever is asked for
     const SceneModel scene = sceneOf(through, false, "0.05");
