@@ -1,12 +1,13 @@
 #include "bake/search/SurfacesApart.h"
 
+#include "bake/base/Infinity.h"
+#include "bake/base/Order.h"
 #include "bake/base/Parallel.h"
 #include "bake/motion/CellTools.h"
 #include "bake/search/SampledSearch.h"
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 namespace tss {
@@ -27,11 +28,16 @@ constexpr Effort byMotion{20'000'000, 20'000, 40'000};
 constexpr std::size_t fewDofs = 2;
 constexpr Effort byAxes{40'000'000, 1'000'000, UINT64_MAX};
 constexpr std::size_t samples = 128;
+/// Over more DOFs samples lie far from each other. From so many of them, the nearest ones, the distance is
+/// lowered: each DOF's value in turn is changed by a share of its range, halved down to the last, wherever
+/// that leaves at most `lower` of the distance.
+constexpr std::size_t sparseDofs = 6, descents = 2;
+constexpr double firstStep = 0.25, lastStep = 1.0 / 32, lower = 0.95;
 constexpr std::size_t batch = 64; // of fixed size, so that the outcome does not depend on threads
 
 struct CellResult {
     std::vector<Cell> halves;
-    double distance = std::numeric_limits<double>::infinity(); ///< at its centre, where less than wanted
+    double distance = infinity; ///< at its centre, where less than wanted
     std::uint64_t looked = 0;
 };
 
@@ -75,6 +81,44 @@ private:
             for (std::size_t k = first; k < end; ++k) least_ = std::min(least_, distances_[k]);
             if (least_ <= touching_ || !report(progress_, "surfaces apart", 0)) return false;
         }
+        return motion_.dofCount() <= sparseDofs || apartBelow(std::move(poses));
+    }
+
+    /// Looks for poses that are nearer than the sampled ones.
+    bool apartBelow(std::vector<std::vector<double>> poses) {
+        std::vector<std::size_t> order = indicesOf<std::size_t>(poses.size());
+        std::ranges::stable_sort(order, {}, [&](std::size_t k) { return distances_[k]; });
+        order.resize(std::min(order.size(), descents));
+        std::vector<double> lowest(order.size());
+        parallelFor(order.size(), [&](std::size_t k) { lowest[k] = lowered(std::move(poses[order[k]])); });
+        for (const double distance : lowest) least_ = std::min(least_, distance);
+        return least_ > touching_ && report(progress_, "surfaces apart", 0);
+    }
+
+    /// The distance at the pose that steps from q lead down to.
+    double lowered(std::vector<double> q) const {
+        double least = distanceAt(q, infinity);
+        for (double step = firstStep; step >= lastStep && least > touching_; step /= 2)
+            for (bool better = true; better && least > touching_;) {
+                better = false;
+                for (std::size_t k = 0; k < q.size(); ++k)
+                    for (const double by : {step, -step}) better = takeStep(q, k, by, least) || better;
+            }
+        return least;
+    }
+
+    /// Changes a DOF's value by a share of its range if that lowers the distance enough.
+    bool takeStep(std::vector<double>& q, std::size_t k, double by, double& least) const {
+        const Dof& dof = motion_.dofs[k];
+        const double before =
+            std::exchange(q[k], std::clamp(q[k] + by * (dof.upper - dof.lower), dof.lower, dof.upper));
+        const double distance =
+            q[k] != before && withinLimits(motion_, q) ? distanceAt(q, lower * least) : infinity;
+        if (distance >= lower * least) {
+            q[k] = before;
+            return false;
+        }
+        least = distance;
         return true;
     }
 
@@ -155,10 +199,10 @@ private:
     const double touching_;
     const Progress& progress_;
     const double rounding_;
-    const double alongAxis_;                                 ///< clearance that holds along one axis
-    std::vector<double> distances_;                          ///< at the sampled poses
-    double least_ = std::numeric_limits<double>::infinity(); ///< distance that was found
-    double clearance_ = 0;                                   ///< to be shown
+    const double alongAxis_;        ///< clearance that holds along one axis
+    std::vector<double> distances_; ///< at the sampled poses
+    double least_ = infinity;       ///< distance that was found
+    double clearance_ = 0;          ///< to be shown
     Effort effort_ = byMotion;
     bool bySeparatingAxes_ = false;
     std::uint64_t cells_ = 0, looked_ = 0;

@@ -104,6 +104,17 @@ TEST_CASE("discs that turn a millionth of their size apart are proven apart; til
     CHECK_FALSE(surfacesApart(lower, upper, motion, touching));
 }
 
+TEST_CASE("over many values poses are found where surfaces meet though none of the sampled ones is near") {
+    Motion motion;
+    for (int k = 0; k < 9; ++k) motion.dofs.push_back(joints::slide(Vec3::Unit(k % 3), -0.5, 0.5));
+    const TriangleMesh b = boxMesh(Vec3::Constant(-0.1), Vec3::Constant(0.1));
+    const Vec3 place{1.1, -0.9, 1.2};
+    const TriangleMesh a = boxMesh(place - Vec3::Constant(0.1), place + Vec3::Constant(0.1));
+    double nearest = 1;
+    CHECK_FALSE(surfacesApart(a, b, motion, touching, {}, &nearest));
+    CHECK(nearest <= touching);
+}
+
 TEST_CASE("the proof that surfaces stay apart is the same for any number of threads, and can be stopped") {
     Motion motion;
     motion.dofs = {joints::turn(Vec3::Zero(), Vec3::UnitZ(), -1, 1),
